@@ -38,8 +38,8 @@ mod view_history;
 pub use change::{Change, NodeMoves};
 pub use document::Document;
 pub use edit::{
-    AlignTo, Clip, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, Shape,
-    ShapeError, Welded, drawn_path,
+    AlignTo, Clip, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, Shape, ShapeError,
+    Welded, drawn_path,
 };
 pub use element::Element;
 pub use elements::Elements;

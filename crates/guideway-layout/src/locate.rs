@@ -17,7 +17,7 @@ impl Layout {
         let kept = self.provenance.text.as_deref();
         let lines = || kept.map(|text| lines.get_or_init(|| LineIndex::new(text)));
         // Refused rows are not in the tables, so they would shift the count.
-        let is_table = self.provenance.format == TABLE_FORMAT && self.refused.len() == 0;
+        let is_table = self.provenance.format == TABLE_FORMAT && self.refused.is_empty();
         for finding in found.iter_mut() {
             let place = &mut finding.place;
             let Some(Origin::Member(member)) = place.origin.filter(|_| place.line.is_none()) else {

@@ -11,6 +11,7 @@ use super::split::{Cuts, JOIN_M};
 use crate::PathSet;
 use crate::document::Document;
 use crate::edit::curves::runs_of;
+use crate::elements::Elements;
 
 /// Most cuts of one step.
 const MAX_CUTS: usize = 100_000;
@@ -66,7 +67,7 @@ impl Document {
         }
         let (changes, pieces, nodes) = cuts.finish();
         self.perform("split at crossings", changes)?;
-        self.selection = Arc::new(pieces);
+        self.selection = Arc::new(Elements::of_paths(pieces));
         Ok(nodes)
     }
 }

@@ -21,9 +21,9 @@ use guideway_spline::construct::{self, ConstructError};
 use super::arms::{Arm, ArmPath};
 use super::error::ShapeError;
 use super::plan::{Plan, length_m, properties_of, stated_length_m};
-use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
+use crate::elements::Elements;
 
 /// Largest distance between an arc and its cubics, in meters.
 pub(super) const ARC_TOLERANCE_M: f64 = 1e-6;
@@ -69,7 +69,7 @@ impl Document {
         }
         let (changes, rows) = self.rounded(node, &arms, &rounded, &ways);
         self.perform("fillet", changes)?;
-        self.selection = Arc::new(rows.iter().copied().collect::<PathSet>());
+        self.selection = Arc::new(Elements::of_paths(rows.iter().copied()));
         Ok(rows)
     }
 

@@ -11,6 +11,7 @@ use super::plan::{LENGTH, Plan, stated_length_m};
 use crate::PathSet;
 use crate::document::Document;
 use crate::edit::curves::runs_of;
+use crate::elements::Elements;
 
 /// Largest gap between two paths at one node, in meters. Files round positions to a millimeter, and
 /// curves may end that far from their node.
@@ -77,7 +78,7 @@ impl Document {
         }
         let changes = self.joined([first, second], turns, node)?;
         self.perform("join", changes)?;
-        self.selection = Arc::new(PathSet::from_iter([first]));
+        self.selection = Arc::new(Elements::of_paths([first]));
         Ok(first)
     }
 

@@ -15,6 +15,7 @@ use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
 use crate::edit::curves::{runs_of, with_moved_ends};
+use crate::elements::Elements;
 
 /// Distance within which places are one node, in meters.
 pub(super) const JOIN_M: f64 = 1e-3;
@@ -62,7 +63,7 @@ impl Document {
         }
         let (changes, pieces, nodes) = cuts.finish();
         self.perform("split", changes)?;
-        self.selection = Arc::new(pieces);
+        self.selection = Arc::new(Elements::of_paths(pieces));
         Ok(nodes)
     }
 }
