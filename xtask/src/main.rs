@@ -1,5 +1,6 @@
 //! Project chores: `cargo xtask test` installs what it needs and runs every check.
 
+mod conformance;
 mod prerequisites;
 mod step;
 
@@ -21,6 +22,8 @@ cargo xtask style [WORD]
                         module circles and breaches of the style rules (in files named WORD)
 cargo xtask fuzz [MINUTES [TARGET...]]
                         each fuzz target for that time (default: 1)
+cargo xtask conformance [--quick] [FORMAT...]
+                        what is read and written, compared with other implementations; a table
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
 ";
@@ -32,6 +35,7 @@ fn main() -> ExitCode {
     let outcome = match (task, &args.get(1..).unwrap_or_default()) {
         ("test", []) => test(),
         ("quick", []) => quick(),
+        ("conformance", rest) => conformance::run(rest),
         ("fuzz", rest) => fuzz(rest),
         ("soak", rest) => soak(rest),
         ("style", []) => style(""),
@@ -63,6 +67,8 @@ fn test() -> Result<()> {
     prerequisites::software_devices()?;
     step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
     quick()?;
+    heading("conformance, a few files per format");
+    conformance::run(&["--quick".to_owned()])?;
     heading("documentation");
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"])
         .env("RUSTDOCFLAGS", "-D warnings")

@@ -97,12 +97,32 @@ pub(crate) fn rust_components() -> Result<()> {
 /// A Python with pyarrow, polars, jsonschema and lxml, in a virtual environment under `target/`,
 /// for tests that read Guideway's files with other programs.
 pub(crate) fn python() -> Result<PathBuf> {
+    let packages = ["pyarrow", "polars", "jsonschema", "lxml"];
+    environment(
+        "python",
+        &packages,
+        "import pyarrow, polars, jsonschema, lxml",
+    )
+}
+
+/// A Python with other readers of the formats, whose versions `tests/conformance` states.
+pub(crate) fn conformance_python() -> Result<PathBuf> {
+    let modules = "import ezdxf, jsonschema, lanelet2, lxml, numpy, PIL, pyarrow, pyproj, \
+                   scipy, shapely, svgelements, yaml";
+    let packages = ["-r", "tests/conformance/requirements.txt"];
+    environment("conformance", &packages, modules)
+}
+
+/// A virtual environment under `target/` in which a line of imports runs; it is made and filled by
+/// pip where that fails.
+fn environment(name: &str, packages: &[&str], imports: &str) -> Result<PathBuf> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("..")
         .canonicalize()?;
-    let folder = workspace.join("target").join("python");
+    let folder = workspace.join("target").join(name);
     let python = folder.join("bin").join("python3");
-    if imports_all(&python) {
+    let imports_all = || command(&python).args(["-c", imports]).succeeds();
+    if imports_all() {
         return Ok(python);
     }
     let create = || command("python3").args(["-m", "venv"]).args([&folder]);
@@ -112,11 +132,11 @@ pub(crate) fn python() -> Result<PathBuf> {
     }
     command(&python)
         .args(["-m", "pip", "install", "--quiet"])
-        .args(["pyarrow", "polars", "jsonschema", "lxml"])
+        .args(packages)
         .run()?;
-    if !imports_all(&python) {
+    if !imports_all() {
         bail!(
-            "pyarrow, polars, jsonschema and lxml were installed into {} but cannot be imported",
+            "pip filled {}, but this fails there: {imports}",
             folder.display()
         );
     }
@@ -136,12 +156,6 @@ pub(crate) fn software_devices() -> Result<()> {
         return Ok(());
     }
     apt_install(&packages)
-}
-
-fn imports_all(python: &Path) -> bool {
-    command(python)
-        .args(["-c", "import pyarrow, polars, jsonschema, lxml"])
-        .succeeds()
 }
 
 fn apt_install(packages: &[&str]) -> Result<()> {
