@@ -44,25 +44,18 @@ pub(super) fn append_shape(
         "path" => path.push_path_data(node.attribute("d").unwrap_or_default())?,
         "rect" => {
             let (width, height) = (x("width"), y("height"));
-            let radii = (
-                number("rx", Viewport::width),
-                number("ry", Viewport::height),
-            );
-            let (rx, ry) = match radii {
-                (Some(rx), ry) => (rx, ry.unwrap_or(rx)),
-                (None, ry) => (ry.unwrap_or(0.0), ry.unwrap_or(0.0)),
-            };
+            let [rx, ry] = radii(node, viewport);
             if !(width > 0.0 && height > 0.0) {
                 return Err(ShapeError::RectSize { width, height });
             }
-            let corner = [rx.clamp(0.0, width / 2.0), ry.clamp(0.0, height / 2.0)];
+            let corner = [rx.min(width / 2.0), ry.min(height / 2.0)];
             rectangle(Point::new(x("x"), y("y")), [width, height], corner, path);
         }
         tag @ ("circle" | "ellipse") => {
             let r = |name| number(name, Viewport::diagonal).unwrap_or(0.0);
-            let (rx, ry) = match tag {
-                "circle" => (r("r"), r("r")),
-                _ => (x("rx"), y("ry")),
+            let [rx, ry] = match tag {
+                "circle" => [r("r"), r("r")],
+                _ => radii(node, viewport),
             };
             if !(rx > 0.0 && ry > 0.0) {
                 return Err(ShapeError::Radius(rx.min(ry)));
@@ -87,6 +80,20 @@ pub(super) fn append_shape(
         }
     }
     Ok(())
+}
+
+/// The radii of a rectangle's corner or of an ellipse: one that is missing or negative is as the
+/// other one, and both are 0 without any.
+fn radii(node: Node<'_, '_>, viewport: Viewport) -> [f64; 2] {
+    let radius = |name, reference: fn(Viewport) -> f64| {
+        let radius = viewport.attribute(node, name, reference);
+        radius.filter(|&radius| radius >= 0.0)
+    };
+    let (rx, ry) = (
+        radius("rx", Viewport::width),
+        radius("ry", Viewport::height),
+    );
+    [rx.or(ry), ry.or(rx)].map(|radius| radius.unwrap_or(0.0))
 }
 
 /// The map from the unit circle to an axis-aligned ellipse.

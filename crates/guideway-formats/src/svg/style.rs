@@ -1,6 +1,7 @@
 //! Computes the style of an element: inherited style and winning declarations in; stroke, fill,
 //! width, font size and visibility out.
 
+use std::collections::HashSet;
 use std::str::FromStr;
 
 use svgtypes::{Color, PaintFallback};
@@ -8,6 +9,13 @@ use svgtypes::{Color, PaintFallback};
 use super::cascade::{Cascade, Property, opacity};
 use super::length::{DEFAULT_FONT_PX, font_size_factor, length};
 use super::viewport::Viewport;
+
+/// Elements that a paint may refer to.
+pub(super) const PAINT_SERVERS: [&str; 4] =
+    ["linearGradient", "radialGradient", "pattern", "hatch"];
+
+/// The identifiers of the gradients and patterns of a document.
+pub(super) type PaintServers<'d> = HashSet<&'d str>;
 
 /// The paint of a stroke or a fill.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,26 +75,38 @@ impl Style {
     };
 
     /// The style of a child element, from its winning declarations.
-    pub(super) fn of_child(mut self, cascade: &Cascade<'_>, viewport: Viewport) -> Self {
+    pub(super) fn of_child(
+        mut self,
+        cascade: &Cascade<'_>,
+        viewport: Viewport,
+        servers: &PaintServers<'_>,
+    ) -> Self {
         let parent = self;
         self.is_stroke_fixed = false;
         for &property in Property::ALL {
             if let Some(value) = cascade.value(property) {
-                self.set(property, value, parent, viewport);
+                self.set(property, value, parent, viewport, servers);
             }
         }
         self
     }
 
     /// Sets a property to a valid value.
-    fn set(&mut self, property: Property, value: &str, parent: Self, viewport: Viewport) {
+    fn set(
+        &mut self,
+        property: Property,
+        value: &str,
+        parent: Self,
+        viewport: Viewport,
+        servers: &PaintServers<'_>,
+    ) {
         let is_inherited = value == "inherit";
         let of_parent = |own: f64| opacity(value).unwrap_or(own);
         match property {
             Property::FontSize => self.set_font_size(value, viewport),
             Property::Color => self.color = Color::from_str(value).unwrap_or(self.color),
-            Property::Stroke => self.stroke = self.paint(value).unwrap_or(parent.stroke),
-            Property::Fill => self.fill = self.paint(value).unwrap_or(parent.fill),
+            Property::Stroke => self.stroke = self.paint(value, servers).unwrap_or(parent.stroke),
+            Property::Fill => self.fill = self.paint(value, servers).unwrap_or(parent.fill),
             Property::StrokeWidth => {
                 let viewport = viewport.with_font_size(self.font_size);
                 let width = viewport.length(value, Viewport::diagonal);
@@ -121,7 +141,8 @@ impl Style {
         self.font_size = size.unwrap_or(self.font_size);
     }
 
-    fn paint(&self, value: &str) -> Option<Paint> {
+    /// The paint that a value says. A reference to no paint, without a fallback, is no paint.
+    fn paint(&self, value: &str, servers: &PaintServers<'_>) -> Option<Paint> {
         use svgtypes::Paint as Found;
         Some(match Found::from_str(value).ok()? {
             Found::None | Found::FuncIRI(_, Some(PaintFallback::None)) => Paint::None,
@@ -131,6 +152,7 @@ impl Style {
             Found::CurrentColor | Found::FuncIRI(_, Some(PaintFallback::CurrentColor)) => {
                 Paint::Color(self.color)
             }
+            Found::FuncIRI(id, None) if !servers.contains(id) => Paint::None,
             Found::FuncIRI(_, None) | Found::ContextFill | Found::ContextStroke => Paint::Other,
             Found::Inherit => return None,
         })
@@ -166,7 +188,8 @@ mod tests {
     fn style(parent: Style, declarations: &str) -> Style {
         let mut cascade = Cascade::default();
         cascade.add_block(declarations, 0, 0);
-        parent.of_child(&cascade, Viewport::new(100.0, 100.0))
+        let servers = PaintServers::from(["gradient"]);
+        parent.of_child(&cascade, Viewport::new(100.0, 100.0), &servers)
     }
 
     #[test]
@@ -179,6 +202,13 @@ mod tests {
         assert_eq!(same.color_rgba(), Some(0xFFFF_FF40));
         let gradient = style(half, "stroke: url(#gradient)");
         assert_eq!(gradient.color_rgba(), Some(0));
+        for (stroke, color) in [
+            ("url(#none)", None),
+            ("url(#none) #abcdef", Some(0xABCD_EF40)),
+        ] {
+            let found = style(half, &format!("stroke: {stroke}; fill: none"));
+            assert_eq!(found.color_rgba(), color, "{stroke}");
+        }
         let invisible = style(half, "opacity: 0; stroke: none");
         assert_eq!(invisible.color_rgba(), None);
     }

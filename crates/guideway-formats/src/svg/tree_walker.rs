@@ -16,7 +16,7 @@ use super::page::{DEFAULT_PAGE_PX, page_size};
 use super::repeat_budget::RepeatBudget;
 use super::shape_mapper::ShapeMapper;
 use super::shapes::SHAPES;
-use super::style::Style;
+use super::style::{PAINT_SERVERS, PaintServers, Style};
 use super::style_sheet::StyleSheet;
 use super::transform::{about, attribute_transform, css_transform, transform_origin};
 use super::viewport::{METERS_PER_PX, Viewport, view_box, view_box_transform};
@@ -33,6 +33,7 @@ pub(super) struct TreeWalker<'a, 'd, 't> {
     sheet: &'d StyleSheet<'d>,
     /// The first element per `id`.
     ids: HashMap<&'d str, Node<'d, 't>>,
+    paint_servers: PaintServers<'d>,
     /// Targets of the references around the current element.
     targets: Vec<NodeId>,
     budget: RepeatBudget,
@@ -49,6 +50,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             mapper: ShapeMapper::new(source, xml, file_bytes),
             sheet,
             ids: HashMap::new(),
+            paint_servers: PaintServers::new(),
             targets: Vec::new(),
             budget: RepeatBudget::new(file_bytes),
         }
@@ -64,6 +66,9 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
                 self.ids.entry(id).or_insert(node);
             }
         }
+        let is_server = |node: &Node<'_, '_>| PAINT_SERVERS.contains(&node.tag_name().name());
+        let servers = self.ids.iter().filter(|(_, node)| is_server(node));
+        self.paint_servers = servers.map(|(&id, _)| id).collect();
         let context = self.root_context(root);
         for child in root.children() {
             self.element(child, &context)?;
@@ -97,7 +102,8 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             y: pixel_from_user.y * -METERS_PER_PX,
             origin: Point::new(0.0, 0.0),
         };
-        let style = Style::INITIAL.of_child(&self.sheet.cascade(root), viewport);
+        let style =
+            Style::INITIAL.of_child(&self.sheet.cascade(root), viewport, &self.paint_servers);
         let mut viewport = viewport.with_font_size(style.font_size);
         viewport.fonts.root = style.font_size;
         ElementContext {
@@ -161,7 +167,9 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             return Ok(());
         }
         let cascade = self.sheet.cascade(node);
-        let mut style = context.style.of_child(&cascade, context.viewport);
+        let mut style = context
+            .style
+            .of_child(&cascade, context.viewport, &self.paint_servers);
         style.is_displayed &= is_met(node);
         let viewport = context.viewport.with_font_size(style.font_size);
         let transform = self.transform(node, &cascade, viewport);
@@ -346,7 +354,9 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
                     return Ok(());
                 }
                 let cascade = self.sheet.cascade(target);
-                let style = inner.style.of_child(&cascade, viewport);
+                let style = inner
+                    .style
+                    .of_child(&cascade, viewport, &self.paint_servers);
                 let viewport = viewport.with_font_size(style.font_size);
                 let transform = self.transform(target, &cascade, viewport);
                 let inner = ElementContext {

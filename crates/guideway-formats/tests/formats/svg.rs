@@ -143,7 +143,7 @@ fn use_elements_prefix_identifiers_of_shapes() {
 #[test]
 fn resolves_colors_and_widths_from_attributes_rules_and_styles() {
     let layout = page(
-        r##"<style>.a { stroke: #0f0 } #d { stroke-width: 3 }</style>
+        r##"<style>.a { stroke: #0f0 } #d { stroke-width: 3 }</style><pattern id="sky"/>
         <g stroke="blue" stroke-width="2" opacity="0.5">
         <path id="b" d="M0 0 H1"/><path id="a" class="a" d="M0 0 H1" transform="scale(3 1)"/>
         <path id="c" class="a" style="stroke:red;stroke-opacity:50%" d="M0 0 H1"/>

@@ -1,7 +1,7 @@
 //! Tests of SVG after public reports: CSS transforms, font sizes, conditions, circles of
 //! references, strokes that do not scale, document type definitions.
 
-use guideway_layout::{Code, Layout};
+use guideway_layout::{Code, Layout, RunPoints};
 use guideway_spline::Point;
 use guideway_spline::uniform::point;
 
@@ -309,4 +309,39 @@ fn definitions_declare_prefixes_and_entities() {
         return;
     };
     assert_eq!(read_real(&cases.join("s06f_attlist.svg")).path_count(), 1);
+}
+
+#[test]
+fn a_missing_or_negative_radius_is_as_the_other_one() {
+    let points = |shape: &str| -> Vec<Point<f64>> {
+        let layout = page(&format!("<{shape}/>"));
+        assert_eq!(layout.paths.len(), 1, "{shape}");
+        let path = layout.paths.get(0);
+        let points = |run: RunPoints<'_>| (0..run.len()).map(|i| run.get(i)).collect::<Vec<_>>();
+        path.runs().flat_map(points).collect()
+    };
+    for shape in ["rect width='9' height='7'", "ellipse cx='4'"] {
+        let both = points(&format!("{shape} rx='3' ry='3'"));
+        for radii in ["rx='3'", "ry='3'", "rx='-1' ry='3'", "rx='3%' ry='-5'"] {
+            assert_eq!(points(&format!("{shape} {radii}")), both, "{shape} {radii}");
+        }
+    }
+    let sharp = points("rect width='9' height='7'");
+    assert_eq!(points("rect width='9' height='7' rx='-3' ry='-2'"), sharp);
+}
+
+#[test]
+fn a_paint_that_does_not_exist_draws_nothing() {
+    for (paint, paths) in [
+        ("url(#sky)", 1),
+        ("url(#none)", 0),
+        ("url(#none) red", 1),
+        ("url(#p)", 0),
+    ] {
+        let layout = page(&format!(
+            "<linearGradient id='sky'/><line id='p' x2='9' stroke='{paint}'/>"
+        ));
+        assert_eq!(layout.paths.len(), paths, "{paint}");
+        assert_eq!(layout.refused.len(), 1 - paths, "{paint}");
+    }
 }
