@@ -9,6 +9,16 @@ use guideway::layout::may_fail;
 
 /// The exit code of every error.
 const ERROR: i32 = 2;
+const REMEDY: &str = "Free some memory, or process a smaller file or a smaller picture; `--limit` \
+                      and `--memory` bound what is used";
+
+/// True if errors are reports in JSON.
+static IS_JSON: AtomicBool = AtomicBool::new(false);
+
+/// Makes the error a report in JSON on standard output, as `--json` says.
+pub(crate) fn report_as_json() {
+    IS_JSON.store(true, Ordering::SeqCst);
+}
 
 #[global_allocator]
 static ALLOCATOR: Allocator = Allocator;
@@ -53,13 +63,35 @@ fn end() -> ! {
     static IS_ENDING: AtomicBool = AtomicBool::new(false);
     // Either step may need memory itself; the second attempt ends at once.
     if !IS_ENDING.swap(true, Ordering::SeqCst) {
-        let text = b"error: out of memory\nhint: Free some memory, or process a smaller file or a \
-            smaller picture; `--limit` and `--memory` bound what is used\n";
-        // Nobody can be told that standard error is closed.
-        let _ = std::io::stderr().write_all(text);
+        if IS_JSON.load(Ordering::SeqCst) {
+            print(
+                b"{\"guideway\":{\"report\":\"error\",\"version\":1},\"error\":{\"code\":\
+                \"out-of-memory\",\"message\":\"out of memory\",\"remedy\":\"",
+            );
+            print(REMEDY.as_bytes());
+            print(b"\"}}\n");
+        } else {
+            // Nobody can be told that standard error is closed.
+            for text in ["error: out of memory\nhint: ", REMEDY, "\n"] {
+                let _ = std::io::stderr().write_all(text.as_bytes());
+            }
+        }
         guideway::try_remove_unfinished();
     }
     exit()
+}
+
+/// Writes to standard output past its buffer, which another thread may hold.
+#[cfg(unix)]
+#[expect(unsafe_code, reason = "the safe functions lock, and may allocate")]
+fn print(text: &[u8]) {
+    // SAFETY: the text is valid for its length. Nobody can be told that the output is closed.
+    let _ = unsafe { nix::libc::write(1, text.as_ptr().cast(), text.len()) };
+}
+
+#[cfg(not(unix))]
+fn print(text: &[u8]) {
+    let _ = std::io::stdout().write_all(text);
 }
 
 /// Ends the process without the handlers of libraries, which need memory.

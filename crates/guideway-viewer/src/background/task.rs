@@ -28,7 +28,8 @@ impl<T: Send + 'static> BackgroundTask<T> {
         let (sender, result) = mpsc::channel();
         let is_awaited = Arc::<AtomicBool>::default();
         let (repaint, skips_repaint) = (Arc::clone(repaint), Arc::clone(&is_awaited));
-        thread::spawn(move || {
+        // Without a thread the sender is dropped, and the result is an error.
+        let _ = thread::Builder::new().spawn(move || {
             // The receiver is gone if the task was dropped in the meantime.
             let _ = sender.send(work());
             if !skips_repaint.load(Ordering::SeqCst) {
@@ -78,8 +79,8 @@ impl<T: Send + 'static> BackgroundTask<T> {
 fn panicked() -> UserError {
     UserError::new(
         WINDOW_ERROR,
-        "an internal error stopped the operation",
-        "Try again with a smaller selection or another render method",
+        "the operation was stopped by an internal error, or for want of threads",
+        "Try again with a smaller selection, another render method, or fewer programs",
     )
 }
 

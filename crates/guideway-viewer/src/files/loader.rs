@@ -13,7 +13,7 @@ use guideway_scene::{Scene, SceneOptions};
 
 use crate::background::RepaintHandle;
 use crate::editing::{Findings, UnsavedWork};
-use crate::services::{AppServices, Job};
+use crate::services::{AppServices, Job, WINDOW_ERROR};
 
 /// Longest time that the loader waits for the first picture before it builds the document: until
 /// then the render method gets all cores.
@@ -55,7 +55,8 @@ impl Loader {
         let (first_picture, picture_wait) = mpsc::channel();
         let is_recovering = unsaved.is_some();
         let watched = Arc::clone(&job);
-        thread::spawn(move || {
+        let failed = sender.clone();
+        let started = thread::Builder::new().spawn(move || {
             let send = |piece| {
                 // The receiver is gone if the file was closed in the meantime.
                 let _ = sender.send(piece);
@@ -85,6 +86,13 @@ impl Loader {
                 Err(error) => send(Loaded::Failed(error)),
             }
         });
+        if let Err(error) = started {
+            let message = format!("cannot start a thread that reads the file: {error}");
+            let remedy = "Close some programs or files, and open it again";
+            let error = UserError::new(WINDOW_ERROR, message, remedy);
+            // The receiver is below.
+            let _ = failed.send(Loaded::Failed(error));
+        }
         Self {
             job,
             pieces,

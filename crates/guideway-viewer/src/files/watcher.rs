@@ -26,7 +26,8 @@ impl Watcher {
     pub(crate) fn start(repaint: RepaintHandle) -> Self {
         let (files, new_files) = mpsc::channel::<Vec<PathBuf>>();
         let (sender, changed) = mpsc::channel();
-        thread::spawn(move || {
+        // Without a thread no change is noticed.
+        let _ = thread::Builder::new().spawn(move || {
             let mut states = FileStates::default();
             loop {
                 match new_files.recv_timeout(POLL_INTERVAL) {

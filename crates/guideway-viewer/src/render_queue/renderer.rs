@@ -31,7 +31,7 @@ impl Renderer {
         Self {
             queue,
             events,
-            thread: Some(thread),
+            thread,
         }
     }
 
@@ -44,7 +44,7 @@ impl Renderer {
     ) {
         self.queue.reset();
         let (events, thread) = spawn(&self.queue, services, method, repaint);
-        (self.events, self.thread) = (events, Some(thread));
+        (self.events, self.thread) = (events, thread);
     }
 
     /// A queue that accepts edits from any thread.

@@ -44,7 +44,7 @@ pub(super) fn spawn(
     services: Arc<dyn AppServices>,
     method: &str,
     repaint: RepaintHandle,
-) -> (Receiver<RenderEvent>, JoinHandle<()>) {
+) -> (Receiver<RenderEvent>, Option<JoinHandle<()>>) {
     let (sender, events) = mpsc::channel();
     let mut worker = Worker {
         services,
@@ -59,7 +59,9 @@ pub(super) fn spawn(
         has_requested_scene: true,
         frame: None,
     };
-    (events, thread::spawn(move || worker.run()))
+    // Without a thread the sender is dropped, which the window reports.
+    let thread = thread::Builder::new().spawn(move || worker.run());
+    (events, thread.ok())
 }
 
 struct Worker {

@@ -18,6 +18,7 @@ use super::{
     bench, check, convert, demo, diff, edit, generate, info, interrupt, limits, methods, network,
     render, reproduce, route, shell, threads,
 };
+use crate::out_of_memory;
 
 /// Draws and checks the path layouts of automated guided vehicles.
 #[derive(Debug, Parser)]
@@ -99,8 +100,11 @@ pub(crate) fn main() -> ExitCode {
         Err(error) => return exit_from_parser(&error),
     };
     let out = Output::new(cli.json, cli.quiet);
+    if cli.json {
+        out_of_memory::report_as_json();
+    }
     limits::set(&cli.limit, &cli.formats);
-    let ready = interrupt::watch().and_then(|()| threads::check_environment());
+    let ready = interrupt::watch().and_then(|()| threads::start());
     match ready.and_then(|()| run(&cli.command, &out)) {
         Ok(exit) => ExitCode::from(exit.code()),
         Err(error) => {

@@ -31,17 +31,20 @@ impl ProgressBar {
     /// Starts the clock. `label` appears after half a second, if standard error is a terminal.
     pub(crate) fn start(label: String, is_visible: bool) -> Self {
         let steps = Arc::<Steps>::default();
-        let display = (is_visible && std::io::stderr().is_terminal()).then(|| {
+        let is_shown = is_visible && std::io::stderr().is_terminal();
+        let display = is_shown.then(|| {
             let (end, ended) = mpsc::channel::<()>();
             let shown = Arc::clone(&steps);
-            let thread = thread::spawn(move || {
+            let thread = thread::Builder::new().spawn(move || {
                 let is_over = |wait| ended.recv_timeout(wait) != Err(RecvTimeoutError::Timeout);
                 if !is_over(DELAY) {
                     show(&label, &shown, is_over);
                 }
             });
-            (end, thread)
+            // Without a thread there is no bar.
+            thread.ok().map(|thread| (end, thread))
         });
+        let display = display.flatten();
         Self {
             started: Instant::now(),
             steps,

@@ -232,6 +232,39 @@ fn without_memory_the_command_ends_with_an_error() {
         shell.current_dir(folder.path()).args(["-c", &script]);
         assert_usage(&shell.output().unwrap(), "error: out of memory");
         assert_eq!(names_in(folder.path()), ["a.arrow", "site.lif.json"]);
+        let mut shell = std::process::Command::new("sh");
+        shell
+            .current_dir(folder.path())
+            .args(["-c", &(script + " --json")]);
+        let output = shell.output().unwrap();
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(report["guideway"]["report"], "error");
+        assert_eq!(report["error"]["code"], "out-of-memory");
+        assert_eq!((output.status.code(), stderr(&output).len()), (Some(2), 0));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_cannot_start_are_an_error() {
+    let folder = folder_with_site();
+    let guideway = env!("CARGO_BIN_EXE_guideway");
+    // A thousand stacks of 2 MiB do not fit into the memory that is left.
+    for args in [
+        "info site.lif.json",
+        "convert site.lif.json a.arrow",
+        "demo -o a.png",
+        "bench d1 --paths 10 --methods cpu",
+    ] {
+        let script = format!("ulimit -v 600000; '{guideway}' {args}");
+        let mut shell = std::process::Command::new("sh");
+        shell.current_dir(folder.path()).args(["-c", &script]);
+        // One arena of memory for all threads, or each would reserve one beside its stack.
+        shell
+            .env("RAYON_NUM_THREADS", "1000")
+            .env("MALLOC_ARENA_MAX", "1");
+        assert_usage(&shell.output().unwrap(), "cannot start the threads");
+        assert_eq!(names_in(folder.path()), ["site.lif.json"], "{args}");
     }
 }
 
