@@ -8,6 +8,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-spline", &[]),
     ("guideway-layout", SPLINE),
     ("guideway-bad-files", &[]),
+    ("guideway-growth", &[]),
     ("guideway-formats", MODEL),
     ("guideway-datasets", MODEL),
     ("guideway-scene", MODEL),

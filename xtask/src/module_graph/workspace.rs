@@ -9,7 +9,7 @@ use super::{Circle, arrows, circles, crate_modules};
 /// # Errors
 /// When a folder of crates cannot be listed.
 pub fn crate_roots(top: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let mut packages = ["tests", "tests/bad", "xtask", "fuzz/laws"]
+    let mut packages = ["tests", "tests/bad", "tests/growth", "xtask", "fuzz/laws"]
         .map(|package| top.join(package))
         .to_vec();
     for folder in ["crates", "thesis"] {

@@ -6,7 +6,7 @@
 //!   right  o-----------o-----o     vertices at the shares 0, 2/3, 1
 //! ```
 //!
-//! Cost: O(n log n) for n vertices.
+//! Cost: O(n) for n vertices.
 
 use guideway_spline::Point;
 
@@ -42,10 +42,13 @@ pub(super) fn align(left: &mut [Point<f64>], right: &mut [Point<f64>]) {
 pub(super) fn center_line(left: &[Point<f64>], right: &[Point<f64>]) -> Vec<Point<f64>> {
     let (left, right) = (MeasuredLine::new(left), MeasuredLine::new(right));
     let mut shares: Vec<f64> = left.shares.iter().chain(&right.shares).copied().collect();
-    shares.sort_unstable_by(f64::total_cmp);
+    // A stable sort merges two runs that are in order.
+    shares.sort_by(f64::total_cmp);
+    let mut after = [0; 2];
     let mut points: Vec<Point<f64>> = Vec::with_capacity(shares.len());
     for share in shares {
-        let point = left.at(share).lerp(right.at(share), 0.5);
+        let [of_left, of_right] = &mut after;
+        let point = left.at(share, of_left).lerp(right.at(share, of_right), 0.5);
         // Opposite vertices give the same point twice.
         if points
             .last()
@@ -77,9 +80,13 @@ impl<'l> MeasuredLine<'l> {
         Self { line, shares }
     }
 
-    /// The point at a share of the length.
-    fn at(&self, share: f64) -> Point<f64> {
-        let after = self.shares.partition_point(|&s| s < share);
+    /// The point at a share of the length, at or behind that of the call before; `after` is the
+    /// first vertex that is not before it, and begins at 0.
+    fn at(&self, share: f64, after: &mut usize) -> Point<f64> {
+        while self.shares.get(*after).is_some_and(|&s| s < share) {
+            *after += 1;
+        }
+        let after = *after;
         match (after.checked_sub(1), self.line.get(after)) {
             (None, Some(&first)) => first,
             (Some(before), Some(&next)) => {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use guideway_layout::{Code, Direction, Layout, NewPath, Place, Quantity, Value};
 use guideway_spline::{Point, Runs, polyline_to_runs};
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use super::center::{align, center_line};
 use super::osm::{is_deleted, positions, tag};
@@ -34,6 +34,8 @@ pub(super) struct MapMapper<'a, 'd, 't> {
     /// Position per node identifier, in meters.
     positions: HashMap<&'d str, Point<f64>>,
     ways: HashMap<&'d str, Node<'d, 't>>,
+    /// Positions of the bounds that were read, which lanelets share.
+    bounds: HashMap<NodeId, Vec<Point<f64>>>,
     /// Tags that have a column.
     columns: HashSet<&'d str>,
 }
@@ -44,6 +46,7 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
             base: XmlBuilder::new(source, xml, file_bytes),
             positions: HashMap::new(),
             ways: HashMap::new(),
+            bounds: HashMap::new(),
             columns: HashSet::new(),
         }
     }
@@ -154,7 +157,7 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
             let detail = self.base.builder.point_budget_exceeded();
             return self.refuse(lanelet, Code::Implausible, &detail);
         }
-        let (mut left, mut right) = (self.points(left)?, self.points(right)?);
+        let (mut left, mut right) = (self.bound(left)?, self.bound(right)?);
         if left.is_empty() || right.is_empty() {
             return self.refuse(lanelet, Code::TooFewPoints, "a bound has no points");
         }
@@ -194,6 +197,16 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
             .filter_map(|id| self.positions.get(id).copied())
             .collect();
         self.base.builder.check_curve_points(points.len())?;
+        Ok(points)
+    }
+
+    /// The positions of a bound, which is looked up node by node once.
+    fn bound(&mut self, way: Node<'d, 't>) -> Result<Vec<Point<f64>>, ReadError> {
+        if let Some(points) = self.bounds.get(&way.id()) {
+            return Ok(points.clone());
+        }
+        let points = self.points(way)?;
+        self.bounds.insert(way.id(), points.clone());
         Ok(points)
     }
 

@@ -1,55 +1,15 @@
-//! Tests of growth: reading time against the size of inputs that attack one stage. An exponent is
-//! fitted over three sizes, so the speed of the machine does not matter.
-
-use std::fs;
-use std::sync::LazyLock;
-use std::time::Instant;
+//! Tests of growth: reading time against the size of inputs that attack one stage.
 
 use guideway_formats::{ReadOptions, read_bytes};
-
-/// Factor from one size to the next.
-const STEP: usize = 3;
+use guideway_growth::exponent_of_time;
 
 /// Largest exponent of a stage that is linear but for memory and logarithms.
 const LINEAR: f64 = 1.5;
 
-/// Time that this thread has run, in nanoseconds: on Linux without the time in which others ran.
-fn clock_ns() -> u64 {
-    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
-    let of_thread = fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let of_thread = of_thread.and_then(|text| text.split(' ').next()?.parse().ok());
-    of_thread.unwrap_or_else(|| START.elapsed().as_nanos() as u64)
-}
-
-/// Returns the exponent by which the time of `work` grows with its size, from `size`, and 3 and 9
-/// times as much.
-fn exponent(size: usize, work: impl Fn(usize)) -> f64 {
-    /// Shorter times are repeated.
-    const MIN_NS: u64 = 20_000_000;
-    let mean_ns = |size| {
-        let start = clock_ns();
-        let mut runs = 0_u32;
-        loop {
-            work(size);
-            runs += 1;
-            let elapsed = clock_ns() - start;
-            if elapsed > MIN_NS || runs == 1000 {
-                return (elapsed as f64 / f64::from(runs)).ln();
-            }
-        }
-    };
-    let sizes = [size, size * STEP, size * STEP * STEP];
-    let [first, _, last] = sizes.map(mean_ns);
-    // The least squares line over three equally spaced places has the slope of its ends.
-    (last - first) / (2.0 * (STEP as f64).ln())
-}
-
 /// Checks that the time to read the file of a size grows at most linearly.
-fn assert_linear(name: &str, size: usize, file: impl Fn(usize) -> String) {
-    let files = [1, STEP, STEP * STEP].map(|factor| file(size * factor));
-    let found = exponent(1, |factor| {
-        let index = factor.ilog(STEP) as usize;
-        let _ = read_bytes(name, files[index].as_bytes(), &ReadOptions::default());
+fn assert_linear(name: &str, size: usize, file: impl Fn(usize) -> String + Sync) {
+    let found = exponent_of_time([size, size * 3, size * 9], file, |text| {
+        let _ = read_bytes(name, text.as_bytes(), &ReadOptions::default());
     });
     assert!(found < LINEAR, "{name} grows with the exponent {found:.2}");
 }
@@ -57,20 +17,6 @@ fn assert_linear(name: &str, size: usize, file: impl Fn(usize) -> String) {
 fn svg(content: &str) -> String {
     let namespace = "http://www.w3.org/2000/svg";
     format!("<svg xmlns='{namespace}' width='9mm' viewBox='0 0 9 9'>{content}</svg>")
-}
-
-#[test]
-fn a_square_is_noticed() {
-    let square = exponent(300, |size| {
-        let all: Vec<usize> = (0..size).collect();
-        let sum = |a: &usize| {
-            all.iter()
-                .map(|b| (a ^ b).count_ones() as usize)
-                .sum::<usize>()
-        };
-        std::hint::black_box(all.iter().map(sum).sum::<usize>());
-    });
-    assert!(square > LINEAR + 0.2, "{square:.2}");
 }
 
 #[test]
@@ -197,4 +143,29 @@ fn roads_of_many_sections_are_linear() {
             &(0..size).map(section).collect::<String>(),
         )
     });
+}
+
+#[test]
+fn lanelets_that_share_a_long_bound_are_linear() {
+    let member = |role| format!("<member type='way' ref='w' role='{role}'/>");
+    let lanelet = format!(
+        "<relation>{}{}<tag k='type' v='lanelet'/></relation>",
+        member("left"),
+        member("right")
+    );
+    for places in [1, 1000] {
+        // The budget of control points is at least 262,144, so the sizes begin above it.
+        assert_linear("a long bound", 1000, |size| {
+            let node = |i| format!("<node id='{i}' lat='{}' lon='8'/>", 49.0 + i as f64 * 1e-6);
+            let nodes: String = (0..places).map(node).collect();
+            let ends: String = (0..5 * size)
+                .map(|i| format!("<nd ref='{}'/>", i % places))
+                .collect();
+            let way = format!("<way id='w'>{ends}</way>");
+            format!(
+                "<osm version='0.6'>{nodes}{way}{}</osm>",
+                lanelet.repeat(size)
+            )
+        });
+    }
 }

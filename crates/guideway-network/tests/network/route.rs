@@ -1,11 +1,11 @@
 //! Routes: the fastest way, turns, errors, and growth.
 
+use guideway_growth::exponent;
 use guideway_layout::{Direction, Layout, NewPath, Value};
 use guideway_network::{RouteError, RouteOptions, Router};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
 
-use crate::growth::exponent;
 use crate::sketch::{case, network, split};
 
 fn add(layout: &mut Layout, from: u32, to: u32, direction: Direction, speed: f64) {
