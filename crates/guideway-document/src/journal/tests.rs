@@ -1,6 +1,7 @@
 //! Round trips of entries, and damage to their bytes.
 
 use std::io::Cursor;
+use std::mem::discriminant;
 use std::sync::Arc;
 
 use guideway_layout::{
@@ -154,8 +155,11 @@ fn decodes_what_it_encodes() {
         JournalEntry::Undo,
         JournalEntry::Redo,
     ] {
-        let decoded = decode(&encode(&entry)).unwrap();
-        assert_eq!(format!("{decoded:?}"), format!("{entry:?}"));
+        let bytes = encode(&entry);
+        let decoded = decode(&bytes).unwrap();
+        assert_eq!(discriminant(&decoded), discriminant(&entry));
+        // The types of entries are in a hash map, whose order the bytes do not depend on.
+        assert_eq!(encode(&decoded), bytes);
     }
 }
 

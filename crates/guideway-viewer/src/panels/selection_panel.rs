@@ -1,6 +1,8 @@
 //! The Selection section: snapping, and moves, copies and rotations by numbers.
 
 use eframe::egui::{DragValue, Ui};
+use guideway_document::{Elements, text_format};
+use guideway_scene::Table;
 
 use crate::action::Action;
 use crate::files::OpenFiles;
@@ -15,11 +17,9 @@ pub(super) fn show(
     exact: &mut ExactEdit,
     actions: &mut Vec<Action>,
 ) {
-    let count = files.document().map(|document| document.selection().len());
-    ui.label(match count {
-        Some(1) => "1 path selected".to_owned(),
-        Some(count) => format!("{count} paths selected"),
-        None => "No document to select in".to_owned(),
+    ui.label(match files.document() {
+        Some(document) => summary(document.selected()),
+        None => "An edit is in progress".to_owned(),
     });
     let snaps = &mut tools.snaps_to_grid;
     ui.checkbox(snaps, "Snap moves and new points to the grid");
@@ -48,4 +48,31 @@ pub(super) fn show(
             actions.push(Action::Edit(exact.rotate_selection()));
         }
     });
+}
+
+/// `2 paths and 1 station selected`.
+fn summary(selected: &Elements) -> String {
+    let counts = Table::ALL.into_iter().filter_map(|of| {
+        let count = selected.rows(of).len();
+        (count > 0).then(|| text_format::counted(count, of.element()))
+    });
+    let counts: Vec<String> = counts.collect();
+    match counts.is_empty() {
+        true => "Nothing is selected".to_owned(),
+        false => format!("{} selected", counts.join(" and ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn summary_counts_each_kind() {
+        let mut selected = Elements::of_paths([1, 2]);
+        assert_eq!(summary(&selected), "2 paths selected");
+        selected.stations.insert(7);
+        assert_eq!(summary(&selected), "2 paths and 1 station selected");
+        assert_eq!(summary(&Elements::default()), "Nothing is selected");
+    }
 }

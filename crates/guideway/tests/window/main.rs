@@ -170,7 +170,7 @@ fn edits_survive_a_crash() {
         "the window offers to recover the unsaved work"
     );
     let is_clicked = (0..MAX_TRIES).any(|_| {
-        session.click(485, 409);
+        session.click(485, 417);
         !session.has_dialog()
     });
     assert!(is_clicked);

@@ -7,6 +7,9 @@ use guideway_document::text_format;
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
 
+/// Width of the dialog, in points: its buttons do not move with the length of the text.
+const WIDTH: f32 = 340.0;
+
 /// The first file with unsaved work about which the user has not decided.
 pub(super) fn undecided(files: &OpenFiles) -> Option<usize> {
     let is_undecided = |layer: &Layer| layer.has_unsaved_work() && !layer.is_recovering();
@@ -27,6 +30,7 @@ pub(super) fn show(ctx: &Context, files: &OpenFiles) -> Option<Action> {
     );
     let mut action = None;
     Modal::new(Id::unique("recover")).show(ctx, |ui| {
+        ui.set_width(WIDTH);
         ui.label(text);
         ui.horizontal(|ui| {
             if ui.button("Recover").clicked() {

@@ -122,7 +122,7 @@ impl PropertiesPanel {
     fn show_facts(&mut self, ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
         let facts = &shown.facts;
         if let Some(name) = &facts.name {
-            ui.label("name");
+            ui.label("identifier");
             let value = Common::Same(name.clone());
             self.text_field(ui, shown.target(Subject::Name), &value, actions);
             ui.end_row();

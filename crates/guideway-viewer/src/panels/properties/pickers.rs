@@ -45,20 +45,19 @@ pub(super) fn direction(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
         Direction::Both => "two-way",
     };
     let present = shown.facts.direction;
-    ui.horizontal(|ui| {
-        let combo = ComboBox::from_id_salt("direction");
-        let text = present.map_or("several values", name);
-        combo.selected_text(text).show_ui(ui, |ui| {
-            for direction in [Direction::Forward, Direction::Both] {
-                let label = ui.selectable_label(present == Some(direction), name(direction));
-                if label.clicked() && present != Some(direction) {
-                    let rows = Arc::clone(&shown.rows);
-                    actions.push(Action::Edit(EditTask::edit(
-                        move |document: &mut Document| document.set_direction(&rows, direction),
-                    )));
-                }
+    let combo = ComboBox::from_id_salt("direction");
+    let text = present.map_or("several values", name);
+    combo.selected_text(text).show_ui(ui, |ui| {
+        for direction in [Direction::Forward, Direction::Both] {
+            let label = ui.selectable_label(present == Some(direction), name(direction));
+            if label.clicked() && present != Some(direction) {
+                let rows = Arc::clone(&shown.rows);
+                actions.push(Action::Edit(EditTask::edit(
+                    move |document: &mut Document| document.set_direction(&rows, direction),
+                )));
             }
-        });
+        }
+        ui.separator();
         let reverse = ui.button("Reverse");
         if reverse.on_hover_text("Exchange start and end").clicked() {
             let rows = Arc::clone(&shown.rows);
