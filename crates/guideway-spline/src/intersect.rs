@@ -62,7 +62,7 @@ fn correct(meeting: &mut Meeting, a: &Bezier, b: &Bezier) {
         let turn = u.cross(v);
         let step = [offset.cross(v) / turn, offset.cross(u) / turn];
         let next = [0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0));
-        // Away, or nowhere: NaN compares as false.
+        // A step that leads away ends the search; NaN compares as false.
         let is_nearer = gap(next).norm() < offset.norm();
         if !is_nearer {
             break;

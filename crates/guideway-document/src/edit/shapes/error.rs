@@ -22,7 +22,7 @@ pub enum ShapeError {
     /// A length is negative, zero or not finite.
     #[error("the {name} is {value} m; it must be a number above 0")]
     Length {
-        /// What it is, such as `tolerance`.
+        /// Its name, such as `tolerance`.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -50,7 +50,7 @@ pub enum ShapeError {
     /// The given paths cross too often.
     #[error("more than {limit} {what}: the paths are too many for one step")]
     TooMany {
-        /// What is counted, such as `places cut`.
+        /// The counted things, such as `places cut`.
         what: &'static str,
         /// The limit.
         limit: usize,

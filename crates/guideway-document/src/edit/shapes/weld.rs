@@ -13,7 +13,7 @@ use crate::PathSet;
 use crate::document::Document;
 use crate::edit::curves::{runs_of, with_moved_ends};
 
-/// What a weld did.
+/// The numbers of elements that a weld changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Welded {
     /// Nodes that went.
