@@ -59,7 +59,7 @@ const CLASSES: [Rgba; 7] = [
     Rgba::opaque(86, 180, 233),
     Rgba::opaque(190, 170, 30),
 ];
-/// Samples of the scale of numbers, from blue over red to orange: lightness and warmth rise, and each
+/// Samples of the scale of numbers, from blue over red to orange: lightness and warmth rise. Each
 /// color has a contrast of at least 3:1 on white and on dark paper (WCAG 2.2, criterion 1.4.11).
 const SCALE: [Rgba; 5] = [
     Rgba::opaque(66, 94, 212),

@@ -55,7 +55,7 @@ pub(super) struct Name<'a> {
     pub(super) spares_arrows: bool,
 }
 
-/// What is in the picture before the labels.
+/// The content of the picture before the labels.
 pub(super) struct Obstacles<'a> {
     /// Positions of symbols, in pixels.
     pub(super) symbols: &'a [Point<f64>],
@@ -101,7 +101,7 @@ impl LabelSize {
 }
 
 /// Places names beside their positions, first come, first served, on the side where lines cross
-/// them least. Omits a name that would leave the picture, be crossed more than it allows, or overlap
+/// least. Omits a name that would leave the picture, be crossed more than it allows, or overlap
 /// another label, a symbol or, if it spares arrows, an arrow.
 pub(super) fn place<'a>(
     names: impl Iterator<Item = Name<'a>>,

@@ -184,8 +184,8 @@ impl App {
         }
     }
 
-    /// Ends the first of these that is there: a dialog, the focus of a field, a gesture, exports and
-    /// loads, a tool, the selection, notices.
+    /// Ends the first of these that there is: a dialog, the focus of a field, a gesture, exports
+    /// and loads, a tool, the selection, notices.
     fn cancel(&mut self, ctx: &Context) {
         let is_typing = ctx.text_edit_focused();
         self.properties.discard();

@@ -91,8 +91,8 @@ impl SaveState {
         Some((snapshot, notices.collect()))
     }
 
-    /// Ends a save; with a path, the layout was written there, into this state. Returns the edit that
-    /// completes it in the document and its journal.
+    /// Ends a save; with a path, the layout was written there, into this state. Returns the edit
+    /// that completes it in the document and its journal.
     pub(super) fn end(&mut self, saved_as: Option<PathBuf>, state: Stamp) -> EditTask {
         self.is_saving = false;
         match saved_as {

@@ -8,8 +8,8 @@ use crate::files::OpenFiles;
 
 const PLOT_HEIGHT: f32 = 48.0;
 
-/// Shows the shape of the selected path, if there is exactly one: what the pointer hovers over is in the status
-/// bar, so that the panel keeps still.
+/// Shows the shape of the selected path, if there is exactly one. The path under the pointer is in
+/// the status bar, so that the panel keeps still.
 pub(super) fn show(ui: &mut Ui, files: &OpenFiles) {
     let Some(document) = files.document() else {
         return;

@@ -1,7 +1,8 @@
 //! Nodes, stations and properties: select, edit, rename, undo.
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{By, Queryable};
 use guideway_document::Element;
 use guideway_layout::Value;
 
@@ -11,9 +12,14 @@ use super::test_window::{TestWindow, has_notice};
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 
+/// The text field with this value.
+fn field(value: &str) -> By<'_> {
+    By::new().role(Role::TextInput).value(value)
+}
+
 /// Replaces the text of the field with this value, and confirms it.
 fn type_over(window: &mut TestWindow, shown: &str, text: &str) {
-    window.harness.get_by_value(shown).focus();
+    window.harness.get(field(shown)).focus();
     window.harness.run_steps(2);
     window.key(CTRL, Key::A);
     window.harness.event(Event::Text(text.into()));
@@ -57,7 +63,7 @@ fn wrong_text_is_refused_and_escape_takes_a_text_back() {
     type_over(&mut window, "0.5", "fast");
     assert!(has_notice(window.app(), "fast is no number"));
     assert_eq!(speed(&mut window, 1), Some(0.5));
-    window.harness.get_by_value("0.5").focus();
+    window.harness.get(field("0.5")).focus();
     window.harness.run_steps(2);
     window.harness.event(Event::Text("7".into()));
     window.harness.run_steps(2);
@@ -72,7 +78,7 @@ fn text_counts_when_the_canvas_is_pressed() {
     let mut window = TestWindow::showing(lanes(3));
     let (first, second) = (window.at(5.0, 2.0), window.at(5.0, 4.0));
     window.click(first);
-    window.harness.get_by_value("0.5").focus();
+    window.harness.get(field("0.5")).focus();
     window.harness.run_steps(2);
     window.key(CTRL, Key::A);
     window.harness.event(Event::Text("3".into()));

@@ -146,7 +146,8 @@ fn edits_are_refused_until_the_user_decides() {
     window.wait(|app| has_notice(app, "Recovered"));
     // Later edits follow the recovered entries.
     let aside = Point::new(0.0, 1.0);
-    window.edit(move |document| document.move_node(0, aside));
+    // The nodes of the deleted lanes are gone.
+    window.edit(move |document| document.create_node(None, aside, None).map(drop));
     assert_eq!(crashed.entries(), 2);
 }
 

@@ -6,7 +6,7 @@ use guideway_scene::Table;
 
 use super::field::{MAX_COMPARED, types_of};
 
-/// What selected elements have in common.
+/// Facts that selected elements have in common.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Facts {
     /// Name of the element, if there is one.

@@ -89,7 +89,7 @@ pub(super) fn types_of(entries: &TypeEntries, rows: &[usize]) -> Vec<String> {
     types.into_iter().map(str::to_owned).collect()
 }
 
-/// What values have in common.
+/// The value that all have, if they have the same.
 pub(super) fn common<'a>(mut values: impl Iterator<Item = Option<Value<'a>>>) -> Common {
     let Some(first) = values.next() else {
         return Common::None;

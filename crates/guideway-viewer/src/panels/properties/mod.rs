@@ -7,18 +7,17 @@ mod draft;
 mod facts;
 mod field;
 mod pickers;
+mod shown;
 mod typed_value;
 
-use std::sync::Arc;
-
-use eframe::egui::{Button, Grid, Label, RichText, TextEdit, Ui};
-use guideway_document::{Document, Elements, PathSet, text_format};
-use guideway_layout::{ElementKind, Layout, Level, PROPERTIES, Property};
+use eframe::egui::{Button, Grid, Label, TextEdit, Ui};
+use guideway_document::Document;
+use guideway_layout::{ElementKind, PROPERTIES, Property};
 use guideway_scene::Table;
 
 use self::draft::{Draft, Subject, Target};
-use self::facts::Facts;
-use self::field::{Common, Field, FieldKind, MAX_COMPARED, fields, kind_of_property};
+use self::field::{Common, Field, FieldKind, MAX_COMPARED};
+use self::shown::Shown;
 use crate::action::Action;
 use crate::files::OpenFiles;
 
@@ -35,18 +34,6 @@ pub(crate) struct PropertiesPanel {
     added: Vec<(Table, &'static Property)>,
     /// Name of a vehicle type to add.
     new_type: String,
-}
-
-/// The selected elements of one table.
-struct Shown {
-    /// Index of the file, and revision of its document.
-    file: usize,
-    revision: u64,
-    of: Table,
-    rows: Arc<PathSet>,
-    facts: Facts,
-    fields: Vec<Field>,
-    levels: Vec<String>,
 }
 
 impl PropertiesPanel {
@@ -66,7 +53,7 @@ impl PropertiesPanel {
     /// Shows the fields of the selection.
     pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
         let Some(document) = files.document() else {
-            // What is being typed waits for the edit in progress.
+            // A text that is being typed waits for the edit in progress.
             ui.label("…");
             return;
         };
@@ -243,57 +230,5 @@ impl PropertiesPanel {
         } else if response.lost_focus() && self.draft.is_some() {
             actions.extend(self.commit());
         }
-    }
-}
-
-impl Shown {
-    fn new(layout: &Layout, of: Table, selected: &Elements, key: (usize, u64)) -> Self {
-        let rows = selected.rows(of);
-        let name = |level: &Level| level.name.clone().unwrap_or_else(|| level.id.clone());
-        Self {
-            file: key.0,
-            revision: key.1,
-            of,
-            facts: Facts::new(layout, of, rows),
-            fields: fields(layout, of, rows),
-            rows: Arc::new(rows.clone()),
-            levels: layout.levels.iter().map(name).collect(),
-        }
-    }
-
-    fn target(&self, subject: Subject) -> Target {
-        Target {
-            of: self.of,
-            rows: Arc::clone(&self.rows),
-            subject,
-        }
-    }
-
-    /// The field of a property that no element has yet.
-    fn empty_field(&self, property: &Property) -> Option<Field> {
-        let is_there = self.fields.iter().any(|field| field.name == property.name);
-        (!is_there).then(|| Field {
-            name: property.name.to_owned(),
-            unit: property.quantity().map(|quantity| quantity.unit()),
-            kind: kind_of_property(property),
-            shared: Common::None,
-            per_type: Vec::new(),
-        })
-    }
-
-    fn elements(&self) -> Elements {
-        let rows = PathSet::clone(&self.rows);
-        let mut elements = Elements::default();
-        match self.of {
-            Table::Paths => elements.paths = rows,
-            Table::Nodes => elements.nodes = rows,
-            Table::Stations => elements.stations = rows,
-        }
-        elements
-    }
-
-    fn heading(&self) -> RichText {
-        let count = text_format::counted(self.rows.len(), self.of.element());
-        RichText::new(count)
     }
 }

@@ -6,9 +6,9 @@ use eframe::egui::{Button, ComboBox, TextEdit, Ui};
 use guideway_document::Document;
 use guideway_layout::Direction;
 
-use super::Shown;
 use super::draft::Target;
 use super::field::Common;
+use super::shown::Shown;
 use crate::action::Action;
 use crate::editing::EditTask;
 

@@ -28,7 +28,7 @@ impl TypedValue {
     /// The value of a text in a field; `None` if the text is empty, which removes the property.
     ///
     /// # Errors
-    /// What the field takes instead, as a sentence.
+    /// The reason, which names the values that the field takes.
     pub(super) fn parse(
         text: &str,
         kind: FieldKind,

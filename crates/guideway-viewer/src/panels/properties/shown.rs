@@ -1,0 +1,74 @@
+//! The selected elements of one table, with everything that the panel shows of them.
+
+use std::sync::Arc;
+
+use guideway_document::{Elements, PathSet, text_format};
+use guideway_layout::{Layout, Level, Property};
+use guideway_scene::Table;
+
+use super::draft::{Subject, Target};
+use super::facts::Facts;
+use super::field::{Common, Field, fields, kind_of_property};
+
+/// The selected elements of one table.
+pub(super) struct Shown {
+    /// Index of the file, and revision of its document.
+    pub(super) file: usize,
+    pub(super) revision: u64,
+    pub(super) of: Table,
+    pub(super) rows: Arc<PathSet>,
+    pub(super) facts: Facts,
+    pub(super) fields: Vec<Field>,
+    pub(super) levels: Vec<String>,
+}
+
+impl Shown {
+    /// Reads the selected elements of a table; `key` is file and revision.
+    pub(super) fn new(layout: &Layout, of: Table, selected: &Elements, key: (usize, u64)) -> Self {
+        let rows = selected.rows(of);
+        let name = |level: &Level| level.name.clone().unwrap_or_else(|| level.id.clone());
+        Self {
+            file: key.0,
+            revision: key.1,
+            of,
+            facts: Facts::new(layout, of, rows),
+            fields: fields(layout, of, rows),
+            rows: Arc::new(rows.clone()),
+            levels: layout.levels.iter().map(name).collect(),
+        }
+    }
+
+    /// The field of these elements for a fact or property.
+    pub(super) fn target(&self, subject: Subject) -> Target {
+        Target {
+            of: self.of,
+            rows: Arc::clone(&self.rows),
+            subject,
+        }
+    }
+
+    /// The field of a property that no element has yet.
+    pub(super) fn empty_field(&self, property: &Property) -> Option<Field> {
+        let is_there = self.fields.iter().any(|field| field.name == property.name);
+        (!is_there).then(|| Field {
+            name: property.name.to_owned(),
+            unit: property.quantity().map(|quantity| quantity.unit()),
+            kind: kind_of_property(property),
+            shared: Common::None,
+            per_type: Vec::new(),
+        })
+    }
+
+    /// The elements, apart from other tables.
+    pub(super) fn elements(&self) -> Elements {
+        let rows = PathSet::clone(&self.rows);
+        let mut elements = Elements::default();
+        *elements.rows_mut(self.of) = rows;
+        elements
+    }
+
+    /// Their number: `2 paths`.
+    pub(super) fn heading(&self) -> String {
+        text_format::counted(self.rows.len(), self.of.element())
+    }
+}
