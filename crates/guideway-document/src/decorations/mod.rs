@@ -16,8 +16,8 @@
 //! | `outline` | paths, view | [`Outline`]: center lines of selected paths |
 //! | `handles` | document, view | [`Handle`]s: control points of selected paths |
 //!
-//! `arrows`, `labels`, `line_mask` and `declutter` position marks; `round_step` rounds the distances
-//! of grids and scale bars.
+//! `arrows`, `labels`, `line_mask` and `declutter` position marks; `round_step` rounds the
+//! distances of grids and scale bars.
 
 mod arrows;
 mod declutter;

@@ -225,8 +225,8 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         self.end_group()
     }
 
-    /// Writes a monospace text in a color 0xRRGGBBAA. Its glyphs are stretched to `width`, whichever
-    /// font the viewer has.
+    /// Writes a monospace text in a color 0xRRGGBBAA. Its glyphs are stretched to `width`, in any
+    /// font that the viewer has.
     ///
     /// # Errors
     /// When writing fails.
