@@ -17,9 +17,11 @@ fn field(value: &str) -> By<'_> {
     By::new().role(Role::TextInput).value(value)
 }
 
-/// Replaces the text of the field with this value, and confirms it.
+/// Replaces the text of the first field with this value, and confirms it.
 fn type_over(window: &mut TestWindow, shown: &str, text: &str) {
-    window.harness.get(field(shown)).focus();
+    let mut fields = window.harness.get_all(field(shown));
+    fields.next().expect("it is shown").focus();
+    drop(fields);
     window.harness.run_steps(2);
     window.key(CTRL, Key::A);
     window.harness.event(Event::Text(text.into()));
