@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use guideway_spline::{Point, nearest_on_run, uniform};
+use guideway_spline::{Point, bezier, nearest_on_run, uniform};
 
 use crate::PathRef;
 
@@ -72,16 +72,9 @@ fn is_covered(
     samples(of).enumerate().all(|(sample, p)| {
         let (segment, step) = (sample / SAMPLES, sample % SAMPLES);
         let same_place = has_same_segments
-            .then(|| bezier_point(&others[segment], step as f64 / f64::from(STEPS)));
+            .then(|| bezier::point(&others[segment], step as f64 / f64::from(STEPS)));
         same_place.is_some_and(|q| p.distance(q) <= tolerance_m) || is_near_at_all(p)
     })
-}
-
-/// The point of a cubic Bezier curve at `t`, by de Casteljau's algorithm.
-fn bezier_point(controls: &[Point<f64>; 4], t: f64) -> Point<f64> {
-    let [a, b, c, d] = *controls;
-    let (ab, bc, cd) = (a.lerp(b, t), b.lerp(c, t), c.lerp(d, t));
-    ab.lerp(bc, t).lerp(bc.lerp(cd, t), t)
 }
 
 fn run_points(path: PathRef<'_>) -> Vec<Vec<Point<f64>>> {

@@ -184,7 +184,7 @@ impl OpenFiles {
         }
         let mut notices = Vec::new();
         for (path, state) in self.watcher.changed().collect::<Vec<_>>() {
-            let is_foreign = |l: &Layer| l.is_at(&path) && !l.save.has_written(state);
+            let is_foreign = |l: &Layer| l.is_at(&path) && l.save.is_changed_by_others(state);
             let Some(index) = self.layers.iter().position(is_foreign) else {
                 continue;
             };

@@ -14,8 +14,8 @@ pub(crate) struct SaveState {
     is_reloading: bool,
     /// True if the document that is being loaded replaces unsaved changes.
     drops_changes: bool,
-    /// State of the file after the last save from this window.
-    written: Stamp,
+    /// True if this window saved the file since it was read.
+    is_written: bool,
     /// State of the file that the document stands for: as it was read or saved here.
     known: Stamp,
     /// State of the file at the start of the load in progress.
@@ -29,12 +29,7 @@ impl SaveState {
 
     /// Returns `true` if this window saved the file since it was read.
     pub(crate) fn is_written(&self) -> bool {
-        self.written.is_some()
-    }
-
-    /// Returns `true` if this window wrote the file into this state.
-    pub(crate) fn has_written(&self, state: Stamp) -> bool {
-        state.is_some() && self.written == state
+        self.is_written
     }
 
     pub(super) fn drops_changes(&self) -> bool {
@@ -59,7 +54,7 @@ impl SaveState {
 
     pub(super) fn begin_reload(&mut self, drops_changes: bool) {
         self.drops_changes = drops_changes;
-        (self.is_reloading, self.written) = (true, None);
+        (self.is_reloading, self.is_written) = (true, false);
     }
 
     pub(super) fn keep_changes(&mut self) {
@@ -97,7 +92,7 @@ impl SaveState {
         self.is_saving = false;
         match saved_as {
             Some(path) => {
-                (self.written, self.known) = (state, state);
+                (self.is_written, self.known) = (true, state);
                 EditTask::with_journal(move |_, journal| journal.complete_save(&path))
             }
             None => EditTask::with_journal(|document, journal| {

@@ -2,13 +2,7 @@
 
 use guideway::layout::Value;
 
-pub(crate) use guideway::compose::text_format::{count, single_line};
-
-/// A count with its noun in the singular or plural: `1 path`, `2 paths`.
-pub(crate) fn counted(n: u64, noun: &str) -> String {
-    let plural = if n == 1 { "" } else { "s" };
-    format!("{} {noun}{plural}", count(n))
-}
+pub(crate) use guideway::compose::text_format::{count, counted, single_line};
 
 /// A duration to three digits.
 pub(crate) fn time(ms: f64) -> String {

@@ -1,5 +1,5 @@
-//! A network with two-way paths, twins, stations, blocks and properties per vehicle type, and what
-//! must hold in any network.
+//! A network with two-way paths, reverse pairs, stations, blocks and properties per vehicle type;
+//! the rules that must hold in any network.
 
 use std::collections::HashSet;
 
@@ -49,7 +49,7 @@ pub(crate) fn path_ids(document: &Document) -> Vec<String> {
 
 /// ```text
 ///   g ----gh---- h          gh, hi: two-way; station "rack" at g
-///   |            |          cf, fc: twins, a corner at f
+///   |            |          cf, fc: reverse pair, a corner at f
 ///   |            |          x: no nodes, crosses ab
 ///   a --ab-- b --bc-- c     bc: bent
 ///                     || cf, fc

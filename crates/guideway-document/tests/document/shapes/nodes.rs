@@ -125,7 +125,7 @@ fn kink_rad(document: &Document, from: u32, to: u32) -> f64 {
 }
 
 #[test]
-fn corner_of_twins_gets_an_arc_per_way() {
+fn corner_of_a_reverse_pair_gets_an_arc_per_way() {
     let mut document = network();
     let f = node(&document, "f");
     let before = document.to_layout();

@@ -2,13 +2,19 @@
 
 use std::sync::Arc;
 
-use guideway_document::ShapeError;
 use guideway_document::measure::length_m;
+use guideway_document::{Document, ShapeError};
 use guideway_layout::{Direction, Value};
 use guideway_scene::EditError;
 
 use super::network::{check_step, members, network, node, path, path_ids};
 use crate::site::{ends, is_near, p, select};
+
+/// Splits the selected paths where they cross or end on each other.
+fn split_crossings(document: &mut Document) -> Result<Vec<u32>, ShapeError> {
+    let selected = document.selection().clone();
+    document.split_at_crossings(&selected)
+}
 
 #[test]
 fn split_keeps_the_properties_of_the_whole() {
@@ -49,7 +55,7 @@ fn split_keeps_the_properties_of_the_whole() {
 }
 
 #[test]
-fn twins_are_split_at_one_node() {
+fn a_reverse_pair_is_split_at_one_node() {
     let mut document = network();
     let before = document.to_layout();
     let rows = ["cf", "fc"].map(|id| path(&document, id));
@@ -87,9 +93,7 @@ fn crossings_and_ends_on_paths_become_nodes() {
     let mut document = network();
     document.select_all();
     let before = document.to_layout();
-    let nodes = document
-        .split_at_crossings(&document.selection().clone())
-        .unwrap();
+    let nodes = split_crossings(&mut document).unwrap();
     check_step(&mut document, &before, "split at crossings");
     // x crosses ab, and gh ends on hb, 2 cm from its start.
     assert_eq!(nodes.len(), 2);
@@ -99,10 +103,7 @@ fn crossings_and_ends_on_paths_become_nodes() {
         assert!(ids.iter().any(|own| own == id), "{ids:?}");
     }
     assert!(is_near(document.node_position_m(nodes[1]), p(4.0, 0.0)));
-    assert_eq!(
-        document.split_at_crossings(&document.selection().clone()),
-        Err(ShapeError::NoCrossing)
-    );
+    assert_eq!(split_crossings(&mut document), Err(ShapeError::NoCrossing));
 }
 
 #[test]
@@ -114,10 +115,7 @@ fn end_on_the_middle_of_a_path_is_a_junction() {
     let rows = ["ab", "spur"].map(|id| path(&document, id));
     // A path without a level is on another level than one with.
     select(&mut document, rows);
-    assert_eq!(
-        document.split_at_crossings(&document.selection().clone()),
-        Err(ShapeError::NoCrossing)
-    );
+    assert_eq!(split_crossings(&mut document), Err(ShapeError::NoCrossing));
     let x = path(&document, "x");
     select(&mut document, [x]);
     document
@@ -126,9 +124,7 @@ fn end_on_the_middle_of_a_path_is_a_junction() {
     let rows = ["ab", "x.1", "x.2"].map(|id| path(&document, id));
     select(&mut document, rows);
     let before = document.to_layout();
-    let nodes = document
-        .split_at_crossings(&document.selection().clone())
-        .unwrap();
+    let nodes = split_crossings(&mut document).unwrap();
     check_step(&mut document, &before, "split at crossings");
     let joint = document
         .layout()
@@ -155,9 +151,7 @@ fn end_beside_a_path_comes_to_the_node_of_the_cut() {
     let mut document = crate::site::document_of(layout);
     document.select_all();
     let before = document.to_layout();
-    let nodes = document
-        .split_at_crossings(&document.selection().clone())
-        .unwrap();
+    let nodes = split_crossings(&mut document).unwrap();
     check_step(&mut document, &before, "split at crossings");
     assert_eq!((nodes.len(), document.to_layout().paths.len()), (1, 3));
     let spur = document
@@ -256,7 +250,7 @@ fn join_turns_two_way_paths_around() {
 #[test]
 fn join_that_cannot_be_is_named() {
     let mut document = network();
-    let join = |document: &mut guideway_document::Document, id: &str| {
+    let join = |document: &mut Document, id: &str| {
         let row = node(document, id);
         document.join_at(row).unwrap_err()
     };
@@ -270,8 +264,8 @@ fn join_that_cannot_be_is_named() {
     );
     let station = join(&mut document, "g");
     assert_eq!(station.to_string(), "station \"rack\" is at node \"g\"");
-    let twins = join(&mut document, "e");
-    assert!(matches!(twins, ShapeError::TurnsBack { .. }), "{twins}");
+    let of_pair = join(&mut document, "e");
+    assert!(matches!(of_pair, ShapeError::TurnsBack { .. }), "{of_pair}");
     let one = join(&mut document, "upstairs");
     assert_eq!(
         one.to_string(),
