@@ -49,6 +49,7 @@ mod backdrop;
 mod blend;
 mod decorations;
 mod error;
+mod georeference;
 mod overlay;
 mod picture;
 mod png_writer;
@@ -63,6 +64,7 @@ pub use backdrop::{
 };
 pub use decorations::{Decorations, MarkedRoute};
 pub use error::{ComposeError, ImageError};
+pub use georeference::{PngTexts, world_file};
 pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, scale_bar};
 pub use guideway_document::text_format;
 pub use guideway_formats::lock_regular_file;

@@ -8,6 +8,7 @@ use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
 use crate::decorations::{Decorations, PlacedDecorations, place, place_legend};
+use crate::georeference::{PngTexts, png_texts};
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
 /// those that differ.
@@ -108,6 +109,15 @@ impl Picture {
             }
             _ => Ok(plain),
         }
+    }
+
+    /// What a PNG file of the picture says about itself: program, title, bounds and scale.
+    ///
+    /// # Errors
+    /// See [`Picture::view`].
+    pub fn png_texts(&self) -> Result<PngTexts, RenderError> {
+        let title = self.decorations.title.as_deref();
+        Ok(png_texts(&self.view()?, title))
     }
 
     /// The view that fits `bounds` into the picture without bands on the left and at the top, or

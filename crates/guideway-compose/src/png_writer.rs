@@ -11,17 +11,18 @@ use guideway_scene::{Frame, FrameSize};
 /// # Errors
 /// When the folder cannot be written or its disk is full. An existing file is then unchanged.
 pub fn save_png(frame: &Frame, path: impl AsRef<Path>) -> Result<(), SaveError> {
-    save_png_by(path, frame.size(), |sink| sink(frame))
+    save_png_by(path, frame.size(), &[], |sink| sink(frame))
 }
 
 /// Saves a picture that is never in memory as a whole as a PNG file, atomically: `draw` hands its
-/// rows to the sink, top first, a strip per call.
+/// rows to the sink, top first, a strip per call. `texts` become text chunks of the file.
 ///
 /// # Errors
 /// See [`save_png`]; also those of `draw`.
 pub fn save_png_by<T, E: From<SaveError>>(
     path: impl AsRef<Path>,
     size: FrameSize,
+    texts: &[(&str, String)],
     draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
 ) -> Result<T, E> {
     let path = path.as_ref();
@@ -31,7 +32,7 @@ pub fn save_png_by<T, E: From<SaveError>>(
             problem,
         })
     };
-    replace_file(path, |file| write_png_by(file, size, fail, draw))
+    replace_file(path, |file| write_png_by(file, size, texts, fail, draw))
 }
 
 /// Writes a picture as PNG to a stream, strip by strip: see [`save_png_by`]. `fail` converts the
@@ -42,12 +43,17 @@ pub fn save_png_by<T, E: From<SaveError>>(
 pub fn write_png_by<T, E>(
     target: impl Write,
     size: FrameSize,
+    texts: &[(&str, String)],
     fail: impl Fn(io::Error) -> E,
     draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
 ) -> Result<T, E> {
     let fail_png = |error| fail(as_io(error));
     let mut target = BufWriter::with_capacity(1 << 16, target);
-    let encoder = encoder(&mut target, [size.width(), size.height()]);
+    let mut encoder = encoder(&mut target, [size.width(), size.height()]);
+    for (keyword, text) in texts {
+        let added = encoder.add_itxt_chunk((*keyword).to_owned(), text.clone());
+        added.map_err(fail_png)?;
+    }
     let mut writer = encoder.write_header().map_err(fail_png)?;
     let stream = writer.stream_writer_with_size(1 << 16);
     let mut stream = stream.map_err(fail_png)?;
@@ -116,7 +122,7 @@ mod tests {
             let draw = |sink: &mut dyn FnMut(&Frame) -> io::Result<()>| {
                 (0..times).try_for_each(|_| sink(&rows))
             };
-            write_png_by(&mut bytes, size, |problem| problem, draw).unwrap();
+            write_png_by(&mut bytes, size, &[], |problem| problem, draw).unwrap();
 
             let mut reader = png::Decoder::new(io::Cursor::new(bytes))
                 .read_info()
@@ -134,9 +140,9 @@ mod tests {
         let path = folder.path().join("a.png");
         let size = FrameSize::new(3, 4).unwrap();
         let rows = frame(3, 2);
-        let half: Result<(), SaveError> = save_png_by(&path, size, |sink| sink(&rows));
+        let half: Result<(), SaveError> = save_png_by(&path, size, &[], |sink| sink(&rows));
         assert!(half.is_err());
-        let stopped = save_png_by(&path, size, |sink| {
+        let stopped = save_png_by(&path, size, &[], |sink| {
             sink(&rows)?;
             Err(SaveError {
                 path: path.clone(),
@@ -146,8 +152,9 @@ mod tests {
         let stopped: Result<(), SaveError> = stopped;
         assert!(stopped.is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-        let whole: Result<(), SaveError> =
-            save_png_by(&path, size, |sink| sink(&rows).and_then(|()| sink(&rows)));
+        let whole: Result<(), SaveError> = save_png_by(&path, size, &[], |sink| {
+            sink(&rows).and_then(|()| sink(&rows))
+        });
         assert!(whole.is_ok() && path.is_file());
     }
 }

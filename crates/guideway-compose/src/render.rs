@@ -152,7 +152,8 @@ impl Picture {
         path: impl AsRef<Path>,
         progress: &dyn Progress,
     ) -> Result<Rendered, ComposeError> {
-        save_png_by(path, self.viewport.size, |sink| {
+        let texts = self.png_texts()?;
+        save_png_by(path, self.viewport.size, &texts, |sink| {
             self.render(method, progress, sink)
         })
     }

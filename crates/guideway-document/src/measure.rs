@@ -1,19 +1,10 @@
-//! Lengths and curvatures of paths.
+//! Curvatures of paths.
 
-use guideway_layout::{PathRef, RunPoints};
-use guideway_spline::{run_length, segment_length, uniform};
+use guideway_layout::PathRef;
+use guideway_spline::{segment_length, uniform};
 
-/// Largest error of the length of a run, in meters: a tenth of a millimeter.
+/// Largest error of the length of a segment, in meters: a tenth of a millimeter.
 const LENGTH_TOLERANCE_M: f64 = 1e-4;
-
-/// Length of a path along its curve, in meters.
-pub fn length_m(path: PathRef<'_>) -> f64 {
-    let runs = path.runs().map(|run| match run {
-        RunPoints::F64(points) => run_length(points, LENGTH_TOLERANCE_M),
-        RunPoints::F32(points) => run_length(points, LENGTH_TOLERANCE_M),
-    });
-    runs.sum()
-}
 
 /// Curvature of a path at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]

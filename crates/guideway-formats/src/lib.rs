@@ -70,7 +70,7 @@ pub use output::{
     NewFile, SaveError, is_same_file, lock_regular_file, remove_unfinished, replace_file,
     try_remove_unfinished,
 };
-pub use read::{read_bytes, read_file};
+pub use read::{read_bytes, read_file, read_stream};
 pub use sniff::sniff;
 pub use source::{Progress, ReadOptions};
 pub use target::Target;

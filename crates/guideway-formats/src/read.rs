@@ -38,6 +38,20 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     read_bytes(&name, &bytes, options)
 }
 
+/// Reads a layout from a stream to its end, such as standard input; error texts call the source
+/// `name`.
+///
+/// # Errors
+/// See [`read_file`].
+pub fn read_stream(
+    name: &str,
+    stream: &mut dyn Read,
+    options: &ReadOptions<'_>,
+) -> Result<Layout, ReadError> {
+    let bytes = read_chunks(stream, Vec::new(), 0, options);
+    read_bytes(name, &bytes.map_err(|p| ReadError::new(name, p))?, options)
+}
+
 /// Reads a layout from bytes; error texts call the source `name`.
 ///
 /// # Errors
@@ -136,14 +150,23 @@ fn non_file_kind(metadata: &Metadata) -> Option<&'static str> {
 }
 
 fn read_whole(file: &mut File, options: &ReadOptions<'_>) -> Result<Vec<u8>, Problem> {
-    const CHUNK: u64 = 8 << 20;
     let total = file.metadata().map_err(io_problem)?.len();
     check_size(total, &options.limits)?;
     let mut bytes = Vec::new();
     try_reserve(&mut bytes, usize::try_from(total).unwrap_or(usize::MAX))
         .map_err(|_| Problem::Io(io::ErrorKind::OutOfMemory.into()))?;
-    // The file may grow during the read, so each chunk checks the size again.
-    while file
+    read_chunks(file, bytes, total, options)
+}
+
+/// Reads a stream to its end. It may be longer than `total`, so each chunk checks the size.
+fn read_chunks(
+    stream: &mut dyn Read,
+    mut bytes: Vec<u8>,
+    total: u64,
+    options: &ReadOptions<'_>,
+) -> Result<Vec<u8>, Problem> {
+    const CHUNK: u64 = 8 << 20;
+    while (&mut *stream)
         .take(CHUNK)
         .read_to_end(&mut bytes)
         .map_err(io_problem)?

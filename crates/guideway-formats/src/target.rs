@@ -184,6 +184,32 @@ impl Target {
         }
     }
 
+    /// The target in which a layout is saved under a name: by the extension, or by the source of
+    /// the layout where an extension fits several formats or versions, as `.json` does. `None` if
+    /// no format has the extension.
+    pub fn for_file(layout: &Layout, path: &Path) -> Option<Self> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let read = Self::of_source(layout);
+        let has_extension = |extension: &str| {
+            let own = path.extension();
+            own.is_some_and(|own| own.eq_ignore_ascii_case(extension))
+        };
+        match (Self::of_file_name(&name), read) {
+            (Some(Self::Lif1), Some(Self::Lif2)) => read,
+            (Some(Self::Vda2), Some(Self::Vda3)) => read,
+            (Some(Self::OpenTcs7), Some(Self::OpenTcs6)) => read,
+            (Some(Self::GeoJson), Some(Self::Nav2)) => read,
+            (
+                None,
+                Some(
+                    Self::Lif1 | Self::Lif2 | Self::GeoJson | Self::Nav2 | Self::Vda2 | Self::Vda3,
+                ),
+            ) if has_extension("json") => read,
+            (None, Some(Self::Rmf)) if has_extension("yaml") => read,
+            (named, _) => named,
+        }
+    }
+
     /// Returns `true` if the target is a drawing, which holds the paths only.
     pub fn is_drawing(self) -> bool {
         matches!(self, Self::Dxf | Self::Svg)

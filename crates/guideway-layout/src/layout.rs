@@ -5,8 +5,8 @@ use std::sync::Arc;
 use guideway_spline::Affine;
 
 use crate::{
-    Attributes, Block, Diagnostics, GeoOrigin, Level, Nodes, Note, Paths, Refused, Stations,
-    VehicleType, Zone,
+    Attributes, Block, Diagnostics, GeoOrigin, Level, Nodes, Note, PathRef, Paths, Refused,
+    Stations, VehicleType, Zone,
 };
 
 /// A layout, as read from one file or merged from several.
@@ -45,6 +45,11 @@ impl Layout {
     /// Number of paths in the input: drawn and refused ones.
     pub fn path_count(&self) -> usize {
         self.paths.len() + self.refused.len()
+    }
+
+    /// The first path with this identifier, if any. Looks at all paths.
+    pub fn path(&self, id: &str) -> Option<PathRef<'_>> {
+        self.paths.iter().find(|path| path.id() == id)
     }
 
     /// Index of the level with this identifier or name, if any.

@@ -37,12 +37,25 @@ pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), 
     eframe::run_native("Guideway", options, create).map_err(|error| {
         UserError::new(
             WINDOW_ERROR,
-            format!("cannot open a window: {error}"),
+            format!(
+                "cannot open a window: {}",
+                without_source_path(&error.to_string())
+            ),
             "A window needs a desktop (X11 or Wayland on Linux) and a graphics adapter. On Debian \
              or Ubuntu install `libvulkan1` and `mesa-vulkan-drivers`, which need no hardware. \
              `guideway render` needs neither",
         )
     })
+}
+
+/// Removes the source file and line that winit puts before its reason: they name folders of the
+/// computer that built the program.
+fn without_source_path(error: &str) -> String {
+    let parts = error.split(' ');
+    let kept = parts.filter(|part| !(part.contains('/') && part.contains(".rs:")));
+    kept.collect::<Vec<_>>()
+        .join(" ")
+        .replace("os error at ", "")
 }
 
 /// Repaints the window once it is open. Earlier calls have no effect: the first frame takes all
@@ -62,5 +75,20 @@ struct Window(App);
 impl eframe::App for Window {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.0.show(ui);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn error_names_no_folder_of_the_builder() {
+        let error = "winit EventLoopError: os error at /root/.cargo/registry/src/x/linux/mod.rs:765: \
+                     neither WAYLAND_DISPLAY nor DISPLAY is set";
+        assert_eq!(
+            without_source_path(error),
+            "winit EventLoopError: neither WAYLAND_DISPLAY nor DISPLAY is set"
+        );
     }
 }

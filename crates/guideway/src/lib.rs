@@ -31,31 +31,52 @@
 //! # Ok::<(), guideway::formats::ReadError>(())
 //! ```
 //!
-//! # Check
-//!
-//! A finding has a stable code, a severity, a place and a remedy. Findings of the reader are in
-//! `layout.diagnostics`; [`layout::check`] examines the geometry.
+//! Elements have names, values and lengths:
 //!
 //! ```
-//! use guideway::layout::{CheckOptions, Severity, check};
+//! # use guideway::layout::Value;
+//! let layout = guideway::open("examples/site.lif.json")?;
+//! let dock = layout.path("dock-1-002--dock-1-003").expect("the site has this path");
+//! assert_eq!(dock.value("maxSpeed"), Some(Value::Float(0.3)));
+//! assert_eq!(dock.length_m(), 4.0);
+//! let middle = dock.point_at_m(2.0).expect("it has a curve");
+//! assert_eq!((middle.x, middle.y), (36.0, 4.0));
+//! # Ok::<(), guideway::formats::ReadError>(())
+//! ```
+//!
+//! # Check
+//!
+//! A finding has a stable code, a severity, a place and a remedy. [`check()`] collects those of the
+//! reader, of the geometry and of the network; [`layout::check`] and [`network::analyze`] take
+//! options.
+//!
+//! ```
+//! use guideway::layout::Severity;
 //!
 //! let layout = guideway::open("examples/site.lif.json")?;
-//! let options = CheckOptions {
-//!     min_radius_m: Some(1.5),
-//!     ..CheckOptions::default()
-//! };
-//! let findings = check(&layout, &options);
+//! let findings = guideway::check(&layout);
 //! for finding in findings.iter() {
 //!     println!("{}: {}. {}", finding.place, finding.message, finding.remedy);
 //! }
-//! assert_eq!(findings.count_at_least(Severity::Error), 0);
+//! assert_eq!(findings.count_at_least(Severity::Warning), 0);
 //! # Ok::<(), guideway::formats::ReadError>(())
 //! ```
 //!
 //! # Render
 //!
-//! A [`Scene`](scene::Scene) resolves colors, widths and draw order once. A [method()]
-//! prepares the scene and then renders any view of it; the report accounts for every path.
+//! [`render`] draws a layout as PNG or SVG:
+//!
+//! ```
+//! let layout = guideway::open("examples/site.lif.json")?;
+//! # let folder = tempfile::tempdir()?;
+//! # let picture = folder.path().join("site.png");
+//! let rendered = guideway::render(layout, &picture)?;
+//! assert_eq!(rendered.report.drawn, 326);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! To draw many views, prepare a [`Scene`](scene::Scene) once: it resolves colors, widths and draw
+//! order. A [method()] renders any view of it; the report accounts for every path.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -108,20 +129,14 @@
 //!
 //! # Convert
 //!
-//! Each writer returns what its format cannot hold. [`replace_file`] makes the file appear whole or
-//! not at all.
+//! [`save`] writes the format of the extension, whole or not at all, and returns what the format
+//! cannot hold.
 //!
 //! ```
-//! use guideway::formats::dxf;
-//!
 //! let layout = guideway::open("examples/site.lif.json")?;
 //! # let folder = tempfile::tempdir()?;
 //! # let target = folder.path().join("site.dxf");
-//! let losses = guideway::replace_file(&target, |file| {
-//!     let written = dxf::write_layout(&layout, file);
-//!     written.map_err(|problem| guideway::SaveError { path: target.clone(), problem })
-//! })?;
-//! for loss in losses.iter() {
+//! for loss in guideway::save(&layout, &target)?.iter() {
 //!     println!("not in the drawing: {loss}");
 //! }
 //! assert_eq!(guideway::open(&target)?.provenance.format, "DXF");
@@ -151,9 +166,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod files;
 mod methods;
-
-use std::path::Path;
 
 pub use guideway_compose as compose;
 pub use guideway_cpu as cpu;
@@ -165,6 +179,7 @@ pub use guideway_network as network;
 pub use guideway_scene as scene;
 pub use guideway_spline as spline;
 
+pub use files::{SaveAsError, check, open, render, save};
 pub use guideway_compose::{save_png, save_png_by, write_png_by};
 pub use guideway_formats::{
     NewFile, SaveError, remove_unfinished, replace_file, try_remove_unfinished,
@@ -172,11 +187,3 @@ pub use guideway_formats::{
 pub use methods::{
     AUTO, Available, MethodError, MethodOption, live_method, method, method_names, methods,
 };
-
-/// Reads a layout file with the default limits. The content decides the format.
-///
-/// # Errors
-/// See [`formats::read_file`], which also takes limits and reports progress.
-pub fn open(path: impl AsRef<Path>) -> Result<layout::Layout, formats::ReadError> {
-    formats::read_file(path.as_ref(), &formats::ReadOptions::default())
-}

@@ -2,8 +2,6 @@
 
 use guideway_layout::{Direction, Layout, Value};
 
-use crate::measure::length_m;
-
 /// The left side of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Column {
@@ -62,7 +60,7 @@ impl Column {
                 let types: Vec<_> = layout.paths.vehicle_types().of(row).collect();
                 (!types.is_empty()).then(|| read(Value::Text(&types.join(", "))))
             }
-            Self::Length => Some(read(Value::Float(length_m(path)))),
+            Self::Length => Some(read(Value::Float(path.length_m()))),
             Self::Attribute(name) => {
                 let value = layout.paths.value(row, name)?;
                 Some(read(value))

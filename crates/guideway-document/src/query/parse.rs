@@ -1,6 +1,6 @@
 //! Parses a query text: tokens, then a recursive descent into a condition tree.
 
-use guideway_layout::Layout;
+use guideway_layout::{Layout, near_names};
 
 use super::column::Column;
 use super::condition::{Comparison, Condition, Operator};
@@ -134,8 +134,16 @@ impl Parser<'_> {
             return Err(self.fail(expected_column));
         };
         let Some(column) = Column::named(name, self.layout) else {
-            let known = Column::names(self.layout).join(", ");
-            return Err(self.fail(format!("unknown column `{name}`; the layout has: {known}")));
+            let known = Column::names(self.layout);
+            let near = near_names(name, known.iter().map(AsRef::as_ref));
+            let near = match near[..] {
+                [nearest, ..] => format!("did you mean `{nearest}`? "),
+                [] => String::new(),
+            };
+            let known = known.join(", ");
+            return Err(self.fail(format!(
+                "unknown column `{name}`; {near}The layout has: {known}"
+            )));
         };
         self.advance();
         let Some((_, Token::Operator(operator))) = self.tokens.first() else {

@@ -1,6 +1,6 @@
 //! Index, hit test, search, findings and measurements.
 
-use guideway_document::measure::{bends, length_m, tightest_radius_m};
+use guideway_document::measure::{bends, tightest_radius_m};
 use guideway_document::{Element, Index, locate, nearest, pick, search};
 use guideway_layout::{Layout, NewPath, Place};
 use guideway_scene::LineRule;
@@ -117,7 +117,7 @@ fn measures_length_and_radius_of_an_arc() {
         ..NewPath::default()
     });
     let path = layout.paths.get(0);
-    assert!((length_m(path) - 7.854).abs() < 0.01);
+    assert!((path.length_m() - 7.854).abs() < 0.01);
     let bends = bends(path);
     assert!((tightest_radius_m(&bends) - 5.0).abs() < 0.05);
     assert!(

@@ -1,6 +1,5 @@
 //! Nodes and stations: how they move, and how paths follow them.
 
-use guideway_document::measure::length_m;
 use guideway_document::{Document, Elements, Neighbors, PointRef};
 use guideway_scene::EditError;
 use guideway_spline::Affine;
@@ -14,7 +13,7 @@ fn path_ends_follow_a_moved_node_and_straight_stays_straight() {
     assert!(is_near(document.node_position_m(1), p(11.0, 2.0)));
     let (start, end) = ends(&document, 0);
     assert!(is_near(start, p(0.0, 0.0)) && is_near(end, p(11.0, 2.0)));
-    assert!((length_m(document.layout().paths.get(0)) - 125f64.sqrt()).abs() < 1e-4);
+    assert!((document.layout().paths.get(0).length_m() - 125f64.sqrt()).abs() < 1e-4);
     let (start, end) = ends(&document, 1);
     assert!(is_near(start, p(11.0, 2.0)) && is_near(end, p(20.0, 0.0)));
     assert_eq!(document.undo(), Some("move node"));

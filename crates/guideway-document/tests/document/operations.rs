@@ -2,7 +2,6 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use guideway_document::measure::length_m;
 use guideway_document::{Document, PointRef, SnapOptions, drawn_path};
 use guideway_layout::{PathRef, Value};
 use guideway_spline::{Affine, Point};
@@ -87,7 +86,7 @@ fn refining_preserves_the_curve() {
                 assert!(off.distance_m < 1e-7, "{off:?}");
             }
         }
-        assert!((length_m(old) - length_m(new)).abs() < 1e-3);
+        assert!((old.length_m() - new.length_m()).abs() < 1e-3);
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use guideway_layout::near_names;
+
 /// The reason why scene options do not fit a layout.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SceneError {
@@ -30,8 +32,12 @@ impl fmt::Display for SceneError {
         if known.is_empty() {
             write!(f, "unknown {what} `{asked}`: this layout has no {what}s")
         } else {
-            let known = known.join(", ");
-            write!(f, "unknown {what} `{asked}`; the layout has: {known}")
+            write!(f, "unknown {what} `{asked}`; ")?;
+            let near = near_names(asked, known.iter().map(String::as_str));
+            if let [nearest, ..] = near[..] {
+                write!(f, "did you mean `{nearest}`? ")?;
+            }
+            write!(f, "The layout has: {}", known.join(", "))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The text about length and bends of a path.
 
-use guideway_document::measure::{Bend, length_m, tightest_radius_m};
+use guideway_document::measure::{Bend, tightest_radius_m};
 use guideway_document::text_format;
 use guideway_layout::PathRef;
 
@@ -9,7 +9,7 @@ const STRAIGHT_RADIUS_M: f64 = 1e5;
 
 /// Length and tightest bend of a path with these bends.
 pub(crate) fn shape_text(path: PathRef<'_>, bends: &[Bend]) -> String {
-    let length = text_format::length(length_m(path));
+    let length = text_format::length(path.length_m());
     let radius_m = tightest_radius_m(bends);
     match radius_m.is_finite() && radius_m < STRAIGHT_RADIUS_M {
         true => {

@@ -15,8 +15,8 @@ use super::output::Output;
 #[cfg(feature = "viewer")]
 use super::view;
 use super::{
-    bench, check, convert, demo, diff, edit, generate, info, interrupt, limits, methods, network,
-    render, reproduce, route, shell, threads,
+    bench, check, convert, default_command, demo, diff, edit, generate, info, interrupt, limits,
+    methods, network, render, reproduce, route, shell, threads,
 };
 use crate::out_of_memory;
 
@@ -27,7 +27,8 @@ use crate::out_of_memory;
     version,
     subcommand_required = true,
     arg_required_else_help = true,
-    after_help = "Start with `guideway demo`, which needs no file.\n\n\
+    after_help = "Start with `guideway demo`, which needs no file. `guideway FILE` opens the window, \
+        or prints a summary where there is no display.\n\n\
         Exit codes: 0 success, 1 findings of `check` at or above its failing level, or \
         differences under `diff --exit-code`, 2 an error, 130 stopped by Ctrl-C."
 )]
@@ -95,7 +96,13 @@ enum Command {
 
 /// Runs the command and returns its exit code.
 pub(crate) fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let grammar = Cli::command();
+    let commands: Vec<&str> = grammar
+        .get_subcommands()
+        .map(clap::Command::get_name)
+        .collect();
+    let args = default_command::insert(std::env::args_os().collect(), &commands);
+    let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
         Err(error) => return exit_from_parser(&error),
     };
@@ -131,7 +138,7 @@ fn run(command: &Command, out: &Output) -> Result<Exit, UserError> {
         Command::Bench(args) => bench::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Demo(args) => demo::run(args, out),
-        Command::Completions(args) => shell::completions(args, Cli::command()),
+        Command::Completions(args) => shell::completions(args, Cli::command(), out),
         Command::Man(args) => shell::man(args, Cli::command(), out),
     }
 }

@@ -43,46 +43,45 @@ fn target_parser() -> impl TypedValueParser<Value = Target> {
         .try_map(|id| Target::from_id(&id).ok_or("the list of formats has this identifier"))
 }
 
-/// The format that the extension of a file selects.
-fn target_of(output: &Path) -> Result<Target, UserError> {
-    let name = output.file_name().unwrap_or_default().to_string_lossy();
-    Target::of_file_name(&name).ok_or_else(|| {
-        let extensions = Target::ALL.iter().flat_map(|target| target.extensions());
-        let extensions: Vec<&str> = extensions.copied().collect();
-        UserError::new(
-            "target-format",
-            format!(
-                "{}: no format has this extension; known are {}",
-                shown_path(output),
-                extensions.join(", ")
-            ),
-            "Rename the output or name its format, such as `--to lif2`; `guideway render` writes \
-             pictures",
-        )
-    })
+/// The format that the extension of a file promises.
+fn promised(output: &Path) -> Option<Target> {
+    let name = output.file_name().unwrap_or_default();
+    Target::of_file_name(&name.to_string_lossy())
 }
 
-/// The format to save a layout in: by the extension of the file, or by the source of the layout
-/// where the extension fits several formats.
+fn has_extension(file: &Path, extension: &str) -> bool {
+    let own = file.extension();
+    own.is_some_and(|own| own.eq_ignore_ascii_case(extension))
+}
+
+/// Says that `--to` selects another format than the extension promises.
+fn contradiction(target: Target, output: &Path) -> Option<String> {
+    let promised = promised(output).filter(|promised| {
+        // Versions of one format share the extension of one of them.
+        let family = |target: Target| target.name().split(' ').next().map(str::to_owned);
+        family(*promised) != family(target)
+    })?;
+    Some(format!(
+        "note: {} holds {}, as `--to` says, though its extension is that of {}",
+        shown_path(output),
+        target.name(),
+        promised.name()
+    ))
+}
+
+/// The format to save a layout in: see [`Target::for_file`].
 pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, UserError> {
-    let read = Target::of_source(layout);
-    let has_extension = |name: &str| {
-        let extension = output.extension();
-        extension.is_some_and(|e| e.eq_ignore_ascii_case(name))
-    };
-    use Target::{Lif1, Lif2, Vda2, Vda3};
-    match (target_of(output), read) {
-        (Ok(Lif1), Some(Lif2)) => Ok(Lif2),
-        (Ok(Vda2), Some(Vda3)) => Ok(Vda3),
-        (Ok(Target::OpenTcs7), Some(Target::OpenTcs6)) => Ok(Target::OpenTcs6),
-        (Ok(Target::GeoJson), Some(Target::Nav2)) => Ok(Target::Nav2),
-        (Err(_), Some(read @ (Lif1 | Lif2 | Target::GeoJson | Target::Nav2 | Vda2 | Vda3)))
-            if has_extension("json") =>
-        {
-            Ok(read)
-        }
-        (Err(_), Some(Target::Rmf)) if has_extension("yaml") => Ok(Target::Rmf),
-        (named, _) => named,
+    Target::for_file(layout, output).ok_or_else(|| no_target(output))
+}
+
+/// No format has the extension of a file.
+fn no_target(output: &Path) -> UserError {
+    let error = UserError::from(guideway::SaveAsError::extension(output));
+    let remedy = "Rename the output or name its format, such as `--to lif2`; `guideway render` \
+                  writes pictures";
+    UserError {
+        remedy: remedy.to_owned(),
+        ..error
     }
 }
 
@@ -147,8 +146,13 @@ fn write_stdout(target: Target, layout: &Layout) -> Result<(Losses, u64), UserEr
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    // An unknown extension must not wait for the read.
-    args.to.map_or_else(|| target_of(&args.output), Ok)?;
+    // An unknown extension must not wait for the read; the source decides about these two.
+    let is_of_source = ["json", "yaml"]
+        .iter()
+        .any(|e| has_extension(&args.output, e));
+    if args.to.is_none() && !is_of_source && promised(&args.output).is_none() {
+        return Err(no_target(&args.output));
+    }
     let is_stdout = stdout::is_stdout(&args.output);
     match is_stdout {
         true => stdout::check(out, (args.to == Some(Target::Arrow)).then_some("Arrow"))?,
@@ -203,6 +207,9 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     match is_stdout {
         true => out.note(report().trim_end()),
         false => out.report("convert", &body, report)?,
+    }
+    if let Some(note) = contradiction(target, &args.output) {
+        out.note(&note);
     }
     Ok(Exit::Clean)
 }

@@ -11,6 +11,7 @@ use serde_json::json;
 
 use super::exit::Exit;
 use super::output::Output;
+use super::picture_file::check_extension;
 use super::render::paths_text;
 use super::{input, text};
 
@@ -26,6 +27,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    check_extension(&args.output)?;
     input::check_output(None, &args.output)?;
     let progress = out.progress("drawing the example site");
     let layout = read_bytes(SITE_NAME, SITE, &ReadOptions::default())?;

@@ -21,7 +21,7 @@ const PROGRESS_STEP: usize = 4096;
 pub(crate) struct Args {
     /// Kind of layout
     dataset: Dataset,
-    /// Number of paths, such as 1000000 or 1_000_000
+    /// Number of paths, such as 1000000, 1_000_000, 1e6 or 10k
     #[arg(long, value_name = "N", value_parser = values::paths)]
     paths: usize,
     /// Seed of the random numbers; the same seed generates the same file

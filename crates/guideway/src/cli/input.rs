@@ -1,12 +1,13 @@
 //! Input files: parses `FILE@placement`, reads layouts and merges them.
 
 use std::ffi::OsString;
-use std::io::{self, ErrorKind};
+use std::fs::File;
+use std::io::{self, ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use guideway::SaveError;
-use guideway::formats::{is_same_file, read_file};
+use guideway::formats::{ReadError, ReadOptions, is_same_file, read_file, read_stream};
 use guideway::layout::{Layout, Limits, UserError, merge, shown_path};
 use guideway::spline::{Affine, Point};
 
@@ -118,13 +119,47 @@ fn pairs(keys: &str) -> Vec<(&str, String)> {
 /// Reads a layout and shows the progress. Returns it and the duration in milliseconds.
 pub(crate) fn read(path: &Path, out: &Output) -> Result<(Layout, f64), UserError> {
     let progress = out.progress(format!("reading {}", shown_path(path)));
-    let layout = read_file(path, &limits::read_options(Some(&progress)))?;
+    let layout = read_input(path, &limits::read_options(Some(&progress)))?;
     Ok((layout, progress.finish()))
+}
+
+/// Reads a file, or standard input if the path is `-`.
+pub(crate) fn read_input(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadError> {
+    if is_stdin(path) {
+        return read_stream("standard input", &mut io::stdin().lock(), options);
+    }
+    // A shell names its pipes so: `guideway info <(unpack site.zip)`.
+    let is_pipe = path.starts_with("/dev/fd") || path == Path::new("/dev/stdin");
+    match File::open(path).ok().filter(|_| is_pipe) {
+        Some(mut pipe) => read_stream(&path.to_string_lossy(), &mut pipe, options),
+        None => read_file(path, options),
+    }
+}
+
+fn is_stdin(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Rejects a second `-`, and one that would wait for what somebody types.
+pub(crate) fn check_stdin(inputs: &[Input]) -> Result<(), UserError> {
+    match inputs.iter().filter(|input| is_stdin(&input.path)).count() {
+        0 => Ok(()),
+        1 if !io::stdin().is_terminal() => Ok(()),
+        1 => Err(usage_error(
+            "`-` is standard input, which is a terminal here",
+            "Pipe a file into it, such as `cat site.lif.json | guideway info -`",
+        )),
+        _ => Err(usage_error(
+            "`-` is given twice, but standard input can be read once",
+            "Give the other file by its name",
+        )),
+    }
 }
 
 /// Reads several layouts and applies their placements. Returns them and the total duration in
 /// milliseconds.
 pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, f64), UserError> {
+    check_stdin(inputs)?;
     let (mut layouts, mut all_ms) = (Vec::new(), 0.0);
     for input in inputs {
         input.check_keys()?;

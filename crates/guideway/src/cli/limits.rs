@@ -5,6 +5,8 @@ use std::sync::OnceLock;
 use guideway::formats::{Format, Progress, ReadOptions};
 use guideway::layout::Limits;
 
+use super::values;
+
 /// Limits and formats of this run, set once from the arguments.
 static ACCEPTED: OnceLock<Accepted> = OnceLock::new();
 
@@ -78,8 +80,8 @@ pub(crate) fn setting(text: &str) -> Result<Setting, String> {
         .ok_or_else(|| format!("write NAME=VALUE; the names are {}", names()))?;
     let limit = LIMITS.iter().find(|limit| limit.name == name);
     let limit = limit.ok_or_else(|| format!("the names are {}", names()))?;
-    match value.replace('_', "").parse::<u64>() {
-        Ok(value) if (1..=limit.max).contains(&value) => Ok(Setting { limit, value }),
+    match values::count(value) {
+        Some(value) if (1..=limit.max).contains(&value) => Ok(Setting { limit, value }),
         _ => Err(format!(
             "write a whole number from 1 to {}, such as {name}=100",
             limit.max

@@ -2,8 +2,10 @@
 //!
 //! | module | purpose |
 //! |---|---|
+//! | `default_command` | the command that `guideway FILE` means |
 //! | `app` | parses arguments, dispatches to a subcommand, exits |
 //! | `input`, `floor_plan`, `envelope`, `arrow`, `relative_path`, `values`, `limits`, `threads` | read arguments and files |
+//! | `picture_file` | names of pictures |
 //! | `output`, `stdout`, `text`, `progress_bar`, `error`, `exit`, `interrupt` | reports, errors, signals |
 //! | all others | one subcommand each |
 
@@ -12,6 +14,7 @@ mod arrow;
 mod bench;
 mod check;
 mod convert;
+mod default_command;
 mod demo;
 mod diff;
 mod edit;
@@ -27,6 +30,7 @@ mod limits;
 mod methods;
 mod network;
 mod output;
+mod picture_file;
 mod progress_bar;
 mod relative_path;
 mod render;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap_complete::Shell;
 use guideway::layout::{UserError, shown_path};
+use serde_json::json;
 
 use super::exit::Exit;
 use super::input::check_no_stdout;
@@ -24,10 +25,11 @@ pub(crate) struct ManArgs {
 pub(crate) fn completions(
     args: &CompletionsArgs,
     mut command: clap::Command,
+    out: &Output,
 ) -> Result<Exit, UserError> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut command, "guideway", &mut script);
-    output::print(&script)?;
+    print_or_report(out, "completions", "script", &script)?;
     Ok(Exit::Clean)
 }
 
@@ -38,7 +40,7 @@ pub(crate) fn man(args: &ManArgs, command: clap::Command, out: &Output) -> Resul
             clap_mangen::Man::new(command)
                 .render(&mut page)
                 .map_err(|error| save_error("standard output", &error))?;
-            output::print(&page)?;
+            print_or_report(out, "man", "page", &page)?;
         }
         Some(dir) => {
             check_no_stdout(dir)?;
@@ -46,10 +48,22 @@ pub(crate) fn man(args: &ManArgs, command: clap::Command, out: &Output) -> Resul
             let mut command = command.disable_help_subcommand(true);
             command.build();
             write_pages(&command, dir)?;
-            out.note(&format!("manual pages are in {}", shown_path(dir)));
+            let folder = shown_path(dir);
+            out.report("man", &json!({ "folder": folder }), || {
+                format!("manual pages are in {folder}\n")
+            })?;
         }
     }
     Ok(Exit::Clean)
+}
+
+/// Prints a text, or with `--json` an object that holds it.
+fn print_or_report(out: &Output, name: &str, key: &str, text: &[u8]) -> Result<(), UserError> {
+    if !out.is_json() {
+        return output::print(text);
+    }
+    let text = String::from_utf8_lossy(text);
+    out.report(name, &json!({ key: text }), String::new)
 }
 
 /// Writes the pages of a command and its subcommands, each whole or not at all.

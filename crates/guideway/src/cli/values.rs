@@ -109,15 +109,34 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number of paths, such as 1000000 or 1_000_000.
+/// A number of paths, such as 1000000, 1_000_000, 1e6, 10k or 1M.
 pub(crate) fn paths(text: &str) -> Result<usize, String> {
     let max = Limits::default().paths;
-    match text.replace('_', "").parse::<u64>() {
-        Ok(n) if (1..=max).contains(&n) => Ok(n as usize),
+    match count(text) {
+        Some(n) if (1..=max).contains(&n) => Ok(n as usize),
         _ => Err(format!(
-            "write a whole number from 1 to {max}, such as 1_000_000"
+            "write a whole number from 1 to {max}, such as 1_000_000, 1e6 or 10k"
         )),
     }
+}
+
+/// A whole number as people write it; `None` if it has a fraction or is no number.
+pub(crate) fn count(text: &str) -> Option<u64> {
+    let text = text.trim().replace(['_', ','], "");
+    let (digits, factor) = match text.char_indices().next_back()? {
+        (at, 'k' | 'K') => (&text[..at], 1e3),
+        (at, 'm' | 'M') => (&text[..at], 1e6),
+        (at, 'g' | 'G') => (&text[..at], 1e9),
+        _ => (&text[..], 1.0),
+    };
+    if let (Ok(number), true) = (digits.parse::<u64>(), factor == 1.0) {
+        return Some(number);
+    }
+    let is_number = digits.starts_with(|first: char| first.is_ascii_digit());
+    let number = digits.parse::<f64>().ok().filter(|_| is_number)? * factor;
+    // Above 2^53 a float skips whole numbers.
+    let is_whole = number.fract() == 0.0 && number < 9e15;
+    is_whole.then_some(number as u64)
 }
 
 /// A number of frames from 0 to 100,000 that are not measured.
@@ -202,7 +221,16 @@ mod tests {
         assert_eq!(point("-1.5, 2e3").unwrap(), Point::new(-1.5, 2000.0));
         assert_eq!(positive("0.5"), Ok(0.5));
         assert_eq!(not_negative("0"), Ok(0.0));
-        assert_eq!(paths("1_000"), Ok(1000));
+        for (text, number) in [
+            ("1_000", 1000),
+            ("1,000", 1000),
+            ("1e3", 1000),
+            ("2.5k", 2500),
+            ("1M", 1_000_000),
+            ("1.02e6", 1_020_000),
+        ] {
+            assert_eq!(paths(text), Ok(number), "{text}");
+        }
         assert_eq!(frames("20"), Ok(20));
         assert_eq!(minutes("0.5"), Ok(0.5));
         assert_eq!(percent("1"), Ok(1.0));
@@ -239,7 +267,19 @@ mod tests {
         for bad in ["0", "-1", "100001", "1.5"] {
             assert!(frames(bad).unwrap_err().contains("such as"), "{bad}");
         }
-        for bad in ["0", "-1", "1e6", "", "100000001"] {
+        for bad in [
+            "0",
+            "-1",
+            "1e-1",
+            "1.5",
+            "k",
+            "",
+            "inf",
+            "NaN",
+            "1e400",
+            "100000001",
+            "1T",
+        ] {
             assert!(paths(bad).unwrap_err().contains("such as"), "{bad}");
         }
     }

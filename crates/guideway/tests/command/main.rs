@@ -8,6 +8,7 @@ mod checks;
 mod diff;
 mod edit;
 mod envelope;
+mod grammar;
 mod hostile;
 mod lines;
 mod network;

@@ -1,6 +1,5 @@
 //! Welds and straight lines.
 
-use guideway_document::measure::length_m;
 use guideway_document::{ShapeError, Welded};
 use guideway_layout::Layout;
 
@@ -135,7 +134,7 @@ fn straight_line_between_the_same_nodes() {
     document.straighten(&document.selection().clone()).unwrap();
     check_step(&mut document, &before, "straighten");
     let straight = document.layout().paths.get(bc as usize);
-    assert!((length_m(straight) - 10.0).abs() < 1e-9);
+    assert!((straight.length_m() - 10.0).abs() < 1e-9);
     let up = path(&document, "up");
     select(&mut document, [up]);
     let path = "up".into();

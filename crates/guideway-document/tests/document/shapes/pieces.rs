@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use guideway_document::measure::length_m;
 use guideway_document::{Document, ShapeError};
 use guideway_layout::{Direction, Value};
 use guideway_scene::EditError;
@@ -35,7 +34,7 @@ fn split_keeps_the_properties_of_the_whole() {
     for (piece, share) in pieces.into_iter().zip([0.25, 0.75]) {
         let row = piece as usize;
         assert_eq!(paths.get(row).direction(), Direction::Both);
-        assert!((length_m(paths.get(row)) - 10.0 * share).abs() < 1e-6);
+        assert!((paths.get(row).length_m() - 10.0 * share).abs() < 1e-6);
         assert_eq!(paths.value(row, "maxSpeed"), Some(Value::Float(1.5)));
         let types: Vec<&str> = paths.vehicle_types().of(row).collect();
         assert_eq!(types, ["tug", "fork"]);
@@ -75,14 +74,14 @@ fn a_reverse_pair_is_split_at_one_node() {
 fn bent_path_is_split_exactly() {
     let mut document = network();
     let bc = path(&document, "bc");
-    let whole_m = length_m(document.layout().paths.get(bc as usize));
+    let whole_m = document.layout().paths.get(bc as usize).length_m();
     select(&mut document, [bc]);
     document
         .split_at(&document.selection().clone(), p(13.0, 0.5), 0.5)
         .unwrap();
     let pieces = ["bc.1", "bc.2"].map(|id| path(&document, id) as usize);
     let sum_m: f64 = pieces
-        .map(|row| length_m(document.layout().paths.get(row)))
+        .map(|row| document.layout().paths.get(row).length_m())
         .iter()
         .sum();
     assert!((sum_m - whole_m).abs() < 1e-5);

@@ -1,6 +1,6 @@
 //! Reads and checks one file; one that cannot be read has a finding that says why.
 
-use guideway::formats::{ReadError, read_file};
+use guideway::formats::ReadError;
 use guideway::layout::{Code, Diagnostics, Layout, Limits, Place, UserError, check, shown_path};
 use guideway::network::analyze;
 
@@ -40,7 +40,7 @@ pub(super) fn check_file(
         ..limits::limits_over(&rules.limits)
     };
     let options = limits::read_options_within(limits, Some(&progress));
-    let layout = read_file(&input.path, &options).map_err(Unread::from);
+    let layout = input::read_input(&input.path, &options).map_err(Unread::from);
     let layout = layout.and_then(|mut layout| {
         input::place(&mut layout, input, &options.limits)?;
         Ok(layout)

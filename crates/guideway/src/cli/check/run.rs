@@ -31,6 +31,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         input::check_output(inputs(), file)?;
     }
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
+    input::check_stdin(&args.inputs)?;
     let (mut files, times) = checked(args, out)?;
     if let ([CheckedFile { unread, .. }], false) = (&mut files[..], args.format == Format::Sarif)
         && let Some(error) = unread.take()

@@ -18,6 +18,7 @@ use self::report::Report;
 use super::exit::Exit;
 use super::input::{self, Input};
 use super::output::Output;
+use super::picture_file::check_extension;
 use super::values;
 
 #[derive(Debug, clap::Args)]
@@ -67,6 +68,7 @@ enum Form {
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let files = [&args.old, &args.new].map(|input| input.path.as_path());
     if let Some(output) = &args.output {
+        check_extension(output)?;
         input::check_output(files, output)?;
     }
     let (mut layouts, read_ms) = input::read_each(&[args.old.clone(), args.new.clone()], out)?;

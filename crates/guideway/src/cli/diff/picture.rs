@@ -9,6 +9,7 @@ use guideway::layout::{Change, Changes, ElementKind, Layout, UserError, merge};
 use guideway::scene::{FrameSize, LineRule, Scene, SceneOptions};
 
 use crate::cli::output::Output;
+use crate::cli::picture_file::is_svg;
 
 /// Colors as RRGGBBAA, of increasing draw rank.
 const UNCHANGED: u32 = 0xb4b4_b4ff;
@@ -44,10 +45,7 @@ pub(super) fn write(
         title: Some(TITLE.to_owned()),
         ..Decorations::default()
     };
-    let is_vector = output
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("svg"));
-    if is_vector {
+    if is_svg(output) {
         picture.save_svg(output)?;
     } else {
         let method = guideway::method("cpu")?;

@@ -11,7 +11,9 @@ use super::decoration_args::DecorationArgs;
 use super::style_args::StyleArgs;
 use super::view_args::ViewArgs;
 use crate::cli::error::usage_error;
-use crate::cli::input::{Input, PLACEMENT_HELP};
+use crate::cli::input::{Input, PLACEMENT_HELP, check_output};
+use crate::cli::picture_file::{default_name, is_svg};
+use crate::cli::stdout::is_stdout;
 use crate::cli::values;
 
 #[derive(Debug, clap::Args)]
@@ -25,9 +27,13 @@ pub(crate) struct Args {
     /// Layout files; the content decides the format
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     pub(super) inputs: Vec<Input>,
-    /// PNG or SVG file to write; `-` writes PNG to standard output
+    /// PNG or SVG file to write; `-` writes PNG to standard output [default: the name of the
+    /// layout with .png, unless this file exists]
     #[arg(long, short, value_name = "FILE")]
-    pub(super) output: PathBuf,
+    output: Option<PathBuf>,
+    /// Also write a world file (.pgw), by which QGIS and other programs place the PNG
+    #[arg(long)]
+    pub(super) world_file: bool,
     /// Render method with options, such as `grid+scan`; `guideway methods` lists them
     #[arg(
         long,
@@ -79,6 +85,36 @@ impl Args {
 
     pub(super) fn floor_plan(&self) -> Option<&Input> {
         self.view.floor_plan.as_ref()
+    }
+
+    /// The file to write.
+    ///
+    /// # Errors
+    /// When none is named and the default exists.
+    pub(super) fn output(&self) -> Result<PathBuf, UserError> {
+        match (&self.output, &self.inputs[..]) {
+            (None, [first, ..]) => default_name(&first.path),
+            (named, _) => Ok(named.clone().unwrap_or_default()),
+        }
+    }
+
+    /// The world file to write beside a PNG file.
+    ///
+    /// # Errors
+    /// When the output is no PNG file.
+    pub(super) fn world_file(&self, output: &Path) -> Result<Option<PathBuf>, UserError> {
+        if !self.world_file {
+            return Ok(None);
+        }
+        if is_stdout(output) || is_svg(output) {
+            return Err(usage_error(
+                "--world-file places a PNG file",
+                "Write one, such as `-o site.png --world-file`",
+            ));
+        }
+        let file = output.with_extension("pgw");
+        check_output(self.files(), &file)?;
+        Ok(Some(file))
     }
 
     /// All files that the command reads.

@@ -5,6 +5,7 @@
 //! | `args` | files, output and the groups of options below |
 //! | `view_args`, `style_args`, `decoration_args` | one group of options each |
 //! | `target` | the output: a file or standard output |
+//! | `view_notes` | notes on what a view does not show |
 //! | `report` | the report as text and JSON |
 //! | `run` | reads, composes, reports |
 
@@ -15,6 +16,7 @@ mod run;
 mod style_args;
 mod target;
 mod view_args;
+mod view_notes;
 
 pub(crate) use args::Args;
 pub(crate) use report::paths_text;

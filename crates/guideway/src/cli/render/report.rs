@@ -116,7 +116,7 @@ fn legend_text(legend: &Legend) -> String {
     text
 }
 
-pub(super) fn json(args: &Args, shown: &Shown<'_>, times: &Times) -> Value {
+pub(super) fn json(args: &Args, output: &Path, shown: &Shown<'_>, times: &Times) -> Value {
     let Shown {
         scene,
         rendered,
@@ -143,7 +143,7 @@ pub(super) fn json(args: &Args, shown: &Shown<'_>, times: &Times) -> Value {
     json!({
         "file": input::names(&args.inputs),
         "floor_plan": args.floor_plan().map(|plan| plan.path.to_string_lossy()),
-        "output": args.output.to_string_lossy(),
+        "output": output.to_string_lossy(),
         "format": layout.provenance.format,
         "format_version": layout.provenance.format_version,
         "size_px": [size.width(), size.height()],

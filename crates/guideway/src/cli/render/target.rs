@@ -9,6 +9,7 @@ use guideway::scene::Method;
 use guideway::write_png_by;
 
 use crate::cli::output::Output;
+use crate::cli::picture_file::{check_extension, is_svg};
 use crate::cli::stdout::{self, Stdout};
 
 /// The output of a picture.
@@ -21,9 +22,11 @@ impl<'a> Target<'a> {
     /// The output that `-o` names.
     ///
     /// # Errors
-    /// When standard output is a terminal or takes the JSON report.
+    /// When the extension is of another kind of picture, or standard output is a terminal or takes
+    /// the JSON report.
     pub(super) fn new(path: &'a Path, out: &Output) -> Result<Self, UserError> {
         if !stdout::is_stdout(path) {
+            check_extension(path)?;
             return Ok(Self::File(path));
         }
         stdout::check(out, Some("PNG"))?;
@@ -34,10 +37,7 @@ impl<'a> Target<'a> {
     pub(super) fn is_vector(&self) -> bool {
         match self {
             Self::StandardOutput => false,
-            Self::File(path) => {
-                let extension = path.extension().unwrap_or_default();
-                extension.eq_ignore_ascii_case("svg")
-            }
+            Self::File(path) => is_svg(path),
         }
     }
 
@@ -53,7 +53,8 @@ impl<'a> Target<'a> {
             Self::StandardOutput => {
                 let fail = |problem| ComposeError::from(stdout::fail(problem));
                 let mut stdout = Stdout::lock();
-                let written = write_png_by(&mut stdout, picture.viewport.size, fail, |sink| {
+                let (size, texts) = (picture.viewport.size, picture.png_texts()?);
+                let written = write_png_by(&mut stdout, size, &texts, fail, |sink| {
                     picture.render(method, progress, sink)
                 });
                 match stdout.take_failure() {

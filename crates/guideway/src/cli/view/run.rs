@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use guideway::AUTO;
-use guideway::layout::UserError;
+use guideway::layout::{UserError, shown_path};
 use guideway_viewer::LaunchOptions;
 
 use super::measure;
@@ -53,6 +53,16 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "`view` has no JSON output",
             "Use `info --json`, `check --json` or `view --measure --json`",
         ));
+    }
+    for file in &args.files {
+        // Before a window opens: the words of the desktop would hide this.
+        if !file.exists() {
+            return Err(UserError::new(
+                "not-found",
+                format!("{}: the file does not exist", shown_path(file)),
+                "Check the spelling and the folder",
+            ));
+        }
     }
     let services = CliServices::for_window(args.timings);
     let launch = LaunchOptions {
