@@ -27,8 +27,8 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    check_extension(&args.output)?;
     input::check_output(None, &args.output)?;
+    check_extension(&args.output)?;
     let progress = out.progress("drawing the example site");
     let layout = read_bytes(SITE_NAME, SITE, &ReadOptions::default())?;
     let options = SceneOptions {

@@ -187,11 +187,7 @@ fn converts_to_every_format_and_back() {
         assert_eq!(info["format"], format, "{name}");
         assert_eq!(paths(&target), paths(&site), "{name}");
     }
-    let output = guideway(&[
-        "convert",
-        text(&site()),
-        text(&folder.path().join("c.json")),
-    ]);
+    let output = guideway(&["convert", text(&site()), text(&folder.path().join("c.txt"))]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("--to lif2"), "{}", stderr(&output));
 }

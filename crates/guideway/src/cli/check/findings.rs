@@ -71,8 +71,12 @@ impl CheckedFile {
     }
 }
 
-/// Returns `true` if a file is a text: the begin of a table or another binary file has a zero.
+/// Returns `true` if a file is a text: the begin of a table or another binary file has a zero. A
+/// pipe can be read once only, so nothing is said of it.
 fn is_text(path: &Path) -> bool {
+    if !path.is_file() {
+        return false;
+    }
     let mut begin = Vec::new();
     let read = File::open(path).and_then(|file| file.take(BEGIN_BYTES).read_to_end(&mut begin));
     read.is_ok() && !begin.contains(&0)

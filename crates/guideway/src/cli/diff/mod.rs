@@ -68,8 +68,8 @@ enum Form {
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let files = [&args.old, &args.new].map(|input| input.path.as_path());
     if let Some(output) = &args.output {
-        check_extension(output)?;
         input::check_output(files, output)?;
+        check_extension(output)?;
     }
     let (mut layouts, read_ms) = input::read_each(&[args.old.clone(), args.new.clone()], out)?;
     let new = layouts.pop().unwrap_or_default();

@@ -192,5 +192,6 @@ fn kinds(found: &Diagnostics) -> Vec<Kind> {
 }
 
 fn size(input: &Input) -> Option<u64> {
-    std::fs::metadata(&input.path).ok().map(|m| m.len())
+    let metadata = std::fs::metadata(&input.path).ok()?;
+    metadata.is_file().then(|| metadata.len())
 }

@@ -13,6 +13,7 @@ use super::target::Target;
 use super::view_notes::view_notes;
 use crate::cli::exit::Exit;
 use crate::cli::output::Output;
+use crate::cli::picture_file::check_extension;
 use crate::cli::{floor_plan, input, output, stdout};
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
@@ -21,6 +22,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let target = Target::new(&output_file, out)?;
     if let Target::File(path) = target {
         input::check_output(args.files(), path)?;
+        check_extension(path)?;
     }
     let world_file = args.world_file(&output_file)?;
     // Before a large file is read: an unknown method is an error of the arguments.

@@ -9,7 +9,7 @@ use guideway::scene::Method;
 use guideway::write_png_by;
 
 use crate::cli::output::Output;
-use crate::cli::picture_file::{check_extension, is_svg};
+use crate::cli::picture_file::is_svg;
 use crate::cli::stdout::{self, Stdout};
 
 /// The output of a picture.
@@ -22,11 +22,9 @@ impl<'a> Target<'a> {
     /// The output that `-o` names.
     ///
     /// # Errors
-    /// When the extension is of another kind of picture, or standard output is a terminal or takes
-    /// the JSON report.
+    /// When standard output is a terminal or takes the JSON report.
     pub(super) fn new(path: &'a Path, out: &Output) -> Result<Self, UserError> {
         if !stdout::is_stdout(path) {
-            check_extension(path)?;
             return Ok(Self::File(path));
         }
         stdout::check(out, Some("PNG"))?;

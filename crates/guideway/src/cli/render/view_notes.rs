@@ -34,7 +34,7 @@ fn hidden_levels(layout: &Layout) -> Option<String> {
     for path in layout.paths.iter() {
         let of_level = path.level().and_then(|l| bounds.get_mut(l as usize));
         if let Some(of_level) = of_level {
-            let own = path.runs().filter_map(|run| run.bounds());
+            let own = path.hull_bounds().into_iter();
             *of_level = own.chain(*of_level).reduce(Bounds::union);
         }
     }
