@@ -174,7 +174,11 @@ fn vehicles_inside_a_thick_wall_are_found() {
 fn errors_name_the_file_and_the_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let map = map(folder.path(), "[0, 0, 0]");
-    let image = folder.path().join("images/hall.pgm");
+    // The content says what an image is, the name where a picture may go.
+    let image = folder.path().join("images/hall.png");
+    fs::rename(image.with_extension("pgm"), &image).unwrap();
+    let fields = fs::read_to_string(&map).unwrap();
+    fs::write(&map, fields.replace("hall.pgm", "hall.png")).unwrap();
     let picture = folder.path().join("a.png");
     let layout = site();
     let render = |plan: &str, picture: &Path| {
