@@ -143,7 +143,11 @@ impl Picture {
 
     /// Colors and sizes of the decorations.
     pub(crate) fn decoration_style(&self) -> DecorationStyle {
-        DecorationStyle::for_picture(self.viewport.size, self.style.background)
+        let background = self.style.background;
+        match self.decorations.px_per_point {
+            Some(px_per_point) => DecorationStyle::new(background, px_per_point),
+            None => DecorationStyle::for_picture(self.viewport.size, background),
+        }
     }
 
     /// The decorations as draw lists for a view.

@@ -43,6 +43,25 @@ impl LineRule {
             Self::Thesis => (1.5 / px_per_m).clamp(0.002, 0.150) * px_per_m,
         }
     }
+
+    /// The rule for a picture with `factor` times as many pixels per length of the page, as on a
+    /// screen of high density: its limits in pixels grow with it. The thesis' rule, which counts
+    /// pixels, stays.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::World {
+                width_m,
+                min_px,
+                max_px,
+            } => Self::World {
+                width_m,
+                min_px: min_px * factor,
+                max_px: max_px * factor,
+            },
+            Self::Thesis => Self::Thesis,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -60,6 +79,21 @@ mod tests {
         assert_eq!(rule.radius_px(None, 10.0), 2.5);
         assert_eq!(rule.radius_px(None, 1000.0), 4.0);
         assert_eq!(rule.radius_px(Some(0.25), 10.0), 1.25);
+    }
+
+    #[test]
+    fn scaled_rule_gives_the_same_line_with_more_pixels() {
+        for rule in [LineRule::default(), LineRule::Thesis] {
+            assert_eq!(rule.scaled(1.0), rule);
+        }
+        let rule = LineRule::default();
+        for px_per_m in [1.0, 40.0, 1000.0] {
+            let (small, large) = (
+                rule.radius_px(None, px_per_m),
+                rule.scaled(4.0).radius_px(None, 4.0 * px_per_m),
+            );
+            assert_eq!(large, 4.0 * small);
+        }
     }
 
     #[test]

@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 use guideway_document::{Element, SelectMode};
 use guideway_layout::CheckOptions;
 
+use crate::backdrop::PlanPlacement;
 use crate::command::Command;
 use crate::editing::EditTask;
-use crate::tools::Tool;
+use crate::file_purpose::{Picked, PromptKind};
+use crate::services::LostPart;
 
 /// A request from a panel, dialog or tool. Parts return actions; [`App`](crate::app::App) routes
 /// each to the part that owns the state.
 pub(crate) enum Action {
     /// Runs a command, as its menu entry does.
     Command(Command),
-    /// Selects a tool.
-    SelectTool(Tool),
     /// Edits the active document.
     Edit(EditTask),
     /// Selects the paths that match the query of the find panel.
@@ -26,18 +26,30 @@ pub(crate) enum Action {
     ZoomTo(Element),
     /// Checks the active document.
     Check(CheckOptions),
-    /// Opens a file.
+    /// Opens a layout or a project.
     Open(PathBuf),
     /// Saves the active file under this name; asks before another file is replaced.
     SaveAs(PathBuf),
     /// Saves the active file under this name, over what is there.
     SaveOver(PathBuf),
+    /// Saves the active file under this name, although its format cannot hold these parts.
+    SaveLossy(PathBuf, Vec<LostPart>),
+    /// Saves the project under this name; asks before a file is replaced.
+    SaveProject(PathBuf),
+    /// Saves the project under this name, over what is there.
+    SaveProjectOver(PathBuf),
+    /// Opens the dialog of the desktop for the name that is being typed.
+    Browse(PromptKind),
+    /// Takes the answer of the dialog of the desktop.
+    Picked(Picked),
     /// Writes the picture as a file; asks before another file is replaced.
     Export(Export),
     /// Writes the picture as a file, over what is there.
     ExportOver(Export),
     /// Replaces the floor plan; an empty text removes it.
     SetFloorPlan(String),
+    /// Shows the floor plan at another place.
+    PlaceFloorPlan(PlanPlacement),
     /// Edits the file of this index from now on.
     Activate(usize),
     /// Closes the file of this index; asks if it has unsaved changes.

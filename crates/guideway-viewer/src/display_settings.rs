@@ -1,30 +1,62 @@
 //! Display settings: colors, line widths, and the decorations that are shown, for all files alike.
 
+use std::ops::RangeInclusive;
+
 use guideway_document::decorations::{DecorationStyle, MarkOptions, grid};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, Style, View};
+use serde::{Deserialize, Serialize};
+
+/// Greatest width of paths without a width of their own, in meters.
+pub(crate) const MAX_WIDTH_M: f64 = 2.0;
+/// Range of the least width on screen, in points.
+pub(crate) const MIN_PX_RANGE: RangeInclusive<f64> = 0.5..=8.0;
+/// Range of the grid step, in meters.
+pub(crate) const GRID_STEPS_M: RangeInclusive<f64> = 0.001..=10_000.0;
+
+/// Light or dark.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ThemeChoice {
+    Light,
+    Dark,
+    /// As the desktop.
+    #[default]
+    System,
+}
 
 /// The display settings.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
 pub(crate) struct DisplaySettings {
+    pub(crate) theme: ThemeChoice,
+    /// True if the theme is dark at present.
+    #[serde(skip)]
     pub(crate) is_dark: bool,
     /// The attribute column that colors the paths; `None` uses the colors of the file.
+    #[serde(skip)]
     pub(crate) color_by: Option<String>,
     pub(crate) is_thesis_rule: bool,
     /// Width of paths without a width of their own, in meters.
     pub(crate) width_m: f64,
-    /// Least width on screen, in pixels.
+    /// Least width on screen, in points.
     pub(crate) min_px: f64,
     pub(crate) is_density: bool,
     pub(crate) has_arrows: bool,
     pub(crate) has_symbols: bool,
     pub(crate) has_labels: bool,
     pub(crate) has_grid: bool,
+    /// Distance of grid lines in meters; `None` follows the scale.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) grid_step_m: Option<f64>,
+    /// True if the dialogs of the desktop ask for file names; else the line of the window does.
+    pub(crate) uses_desktop_dialogs: bool,
 }
 
 impl Default for DisplaySettings {
     fn default() -> Self {
         Self {
+            theme: ThemeChoice::default(),
             is_dark: false,
             color_by: None,
             is_thesis_rule: false,
@@ -35,11 +67,34 @@ impl Default for DisplaySettings {
             has_symbols: true,
             has_labels: true,
             has_grid: true,
+            grid_step_m: None,
+            uses_desktop_dialogs: true,
         }
     }
 }
 
 impl DisplaySettings {
+    /// The same with all numbers in their ranges: a file may hold any.
+    pub(crate) fn in_range(mut self) -> Self {
+        let default = Self::default();
+        if !(0.0..=MAX_WIDTH_M).contains(&self.width_m) {
+            self.width_m = default.width_m;
+        }
+        if !MIN_PX_RANGE.contains(&self.min_px) {
+            self.min_px = default.min_px;
+        }
+        self.grid_step_m = self.grid_step_m.filter(|step| GRID_STEPS_M.contains(step));
+        self
+    }
+
+    /// Turns the theme around, for good.
+    pub(crate) fn set_dark(&mut self, is_dark: bool) {
+        self.theme = match is_dark {
+            true => ThemeChoice::Dark,
+            false => ThemeChoice::Light,
+        };
+    }
+
     /// Background color of the picture.
     pub(crate) fn background(&self) -> Rgba {
         if self.is_dark {
@@ -68,7 +123,7 @@ impl DisplaySettings {
         let label_size = self.decoration_style(px_per_point).label_size();
         MarkOptions {
             px_per_point,
-            arrows: self.has_arrows.then(|| self.line_rule()),
+            arrows: self.has_arrows.then(|| self.line_rule(px_per_point)),
             symbols: self.has_symbols,
             labels: self.has_labels.then_some(label_size),
         }
@@ -77,7 +132,7 @@ impl DisplaySettings {
     /// The grid of a view; empty if it is off.
     pub(crate) fn grid(&self, view: &View, px_per_point: f64) -> DrawList {
         match self.has_grid {
-            true => grid(view, &self.decoration_style(px_per_point)),
+            true => grid(view, self.grid_step_m, &self.decoration_style(px_per_point)),
             false => DrawList::default(),
         }
     }
@@ -98,9 +153,9 @@ impl DisplaySettings {
 
     /// The style of the picture of one file. Its background is transparent: the window paints
     /// background, grid and other files below it.
-    pub(crate) fn style(&self) -> Style {
+    pub(crate) fn style(&self, px_per_point: f64) -> Style {
         Style {
-            line_rule: self.line_rule(),
+            line_rule: self.line_rule(px_per_point),
             shading: if self.is_density {
                 Shading::Density(ToneMap::Log)
             } else {
@@ -110,18 +165,21 @@ impl DisplaySettings {
         }
     }
 
-    pub(crate) fn line_rule(&self) -> LineRule {
+    /// The widths of lines at `px_per_point` pixels per point of the screen: their limits are the
+    /// same length on any screen.
+    pub(crate) fn line_rule(&self, px_per_point: f64) -> LineRule {
         if self.is_thesis_rule {
             return LineRule::Thesis;
         }
-        match LineRule::default() {
+        let rule = match LineRule::default() {
             LineRule::World { max_px, .. } => LineRule::World {
                 width_m: self.width_m,
                 min_px: self.min_px,
                 max_px: max_px.max(self.min_px),
             },
             LineRule::Thesis => LineRule::Thesis,
-        }
+        };
+        rule.scaled(px_per_point)
     }
 
     /// Returns `true` if arrows, symbols or labels are shown.
@@ -145,12 +203,22 @@ mod tests {
     }
 
     #[test]
+    fn lines_are_as_wide_on_a_screen_of_high_density() {
+        let settings = DisplaySettings::default();
+        let radius_px = |px_per_point| {
+            let rule = settings.line_rule(px_per_point);
+            rule.radius_px(None, 2.0 * px_per_point)
+        };
+        assert_eq!(radius_px(2.0), 2.0 * radius_px(1.0));
+    }
+
+    #[test]
     fn least_width_never_exceeds_the_greatest() {
         let settings = DisplaySettings {
             min_px: 1e3,
             ..DisplaySettings::default()
         };
-        let LineRule::World { min_px, max_px, .. } = settings.line_rule() else {
+        let LineRule::World { min_px, max_px, .. } = settings.line_rule(1.0) else {
             panic!("the thesis' rule is off");
         };
         assert!(min_px <= max_px);

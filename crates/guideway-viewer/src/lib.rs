@@ -17,6 +17,8 @@
 //! | selection | search, exact edits, selection commands | `selection` |
 //! | canvas | camera, input, painting, decorations | `canvas` |
 //! | export | pictures for files and clipboard | `export` |
+//! | preferences | what outlives a run | `preferences` |
+//! | project | files and look in one file | `project` |
 //! | panels | menu bar, side panel, dialogs | `panels` |
 //! | app | all parts, and the routes between them | `app` |
 
@@ -29,10 +31,13 @@ mod command;
 mod display_settings;
 mod editing;
 mod export;
+mod file_purpose;
 mod files;
 mod launch_options;
 mod measure;
 mod panels;
+mod preferences;
+mod project;
 mod render_queue;
 mod selection;
 mod services;
@@ -44,6 +49,7 @@ mod window;
 pub use launch_options::LaunchOptions;
 pub use measure::{Movement, measure};
 pub use services::{
-    AppServices, FileStamp, Job, LoadStage, MethodChoice, PictureRequest, SweptAreas,
+    AppServices, FileAnswer, FileFormat, FileQuestion, FileStamp, Job, LoadStage, LostPart,
+    MAX_PROJECT_BYTES, MethodChoice, PendingFileAnswer, PictureRequest, Saved, SweptAreas,
 };
 pub use window::run;

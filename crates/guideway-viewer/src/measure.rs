@@ -3,12 +3,13 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{
     Context, Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput,
-    Rect, TouchPhase, Vec2,
+    Rect, RequestRepaintInfo, TouchPhase, Vec2,
 };
 use guideway_document::{Document, PathSet, SelectMode, nearest};
 use guideway_layout::UserError;
@@ -17,6 +18,7 @@ use guideway_spline::{Bounds, Point};
 
 use crate::LaunchOptions;
 use crate::app::App;
+use crate::background::RepaintGate;
 use crate::editing::EditTask;
 use crate::services::{AppServices, WINDOW_ERROR};
 use crate::tools::HIT_RADIUS_PX;
@@ -39,6 +41,9 @@ pub struct Movement {
     pub name: &'static str,
     /// Time of each frame on the window's thread, in milliseconds: input, panels, marks, triangles.
     pub frames_ms: Vec<f64>,
+    /// Frames that a window would have presented: one per input event, and those that the window
+    /// asks for.
+    pub presented: usize,
     /// Time from request to picture of each picture that was shown meanwhile, in milliseconds.
     pub pictures_ms: Vec<f64>,
     /// Time from the last frame of the movement to its last picture, in milliseconds; 0 if none
@@ -49,8 +54,8 @@ pub struct Movement {
     pub settled_ms: f64,
 }
 
-/// Opens a file and moves it, without a journal: still, panned, zoomed, with a hundredth and then
-/// all of its paths dragged, and zoomed with all of them selected.
+/// Opens a file and moves it, without a journal: still, hovered over, panned, zoomed, with a
+/// hundredth and then all of its paths dragged, and zoomed with all of them selected.
 ///
 /// # Errors
 /// When the file cannot be read or rendered, or a movement does not settle.
@@ -64,8 +69,7 @@ pub fn measure(
         method,
         ..LaunchOptions::default()
     };
-    // Frames come at a fixed rate, so the repaint handle has no effect.
-    let mut user = SimulatedUser::new(App::new(Arc::new(|| {}), services, options));
+    let mut user = SimulatedUser::new(services, options);
     user.wait(|app| {
         let layer = &app.files.layers()[0];
         let is_loaded = layer.picture.shown().is_some() && layer.tasks.findings().is_some();
@@ -81,6 +85,10 @@ pub fn measure(
     user.wait(App::is_settled)?;
     Ok(vec![
         user.movement("still", |_, _| Vec::new())?,
+        user.movement("hover", |number, _| {
+            let at = CANVAS_CENTER + Vec2::splat(number as f32);
+            vec![Event::PointerMoved(at)]
+        })?,
         user.pan()?,
         user.zoom("zoom")?,
         user.drag("drag a hundredth", 100)?,
@@ -93,10 +101,15 @@ fn error_of(message: &str, remedy: &str) -> UserError {
     UserError::new(WINDOW_ERROR, message, remedy)
 }
 
-/// Mouse and clock of a user, without a screen.
+/// Mouse and clock of a user, without a screen. Frames come at a fixed rate.
 struct SimulatedUser {
     app: App,
     context: Context,
+    gate: Arc<RepaintGate>,
+    /// True if the window asked for a frame since the last one.
+    is_asked: Arc<AtomicBool>,
+    /// Frames of the movement that a window would have presented.
+    presented: usize,
     started: Instant,
     pointer: Pos2,
     /// Time from request to picture of each picture shown, in milliseconds.
@@ -105,11 +118,26 @@ struct SimulatedUser {
 }
 
 impl SimulatedUser {
-    fn new(app: App) -> Self {
+    fn new(services: Arc<dyn AppServices>, options: LaunchOptions) -> Self {
         let started = Instant::now();
+        let (context, gate) = (Context::default(), Arc::new(RepaintGate::new()));
+        let is_asked = Arc::<AtomicBool>::default();
+        let ask = |is_asked: &Arc<AtomicBool>| {
+            let is_asked = Arc::clone(is_asked);
+            move || is_asked.store(true, Ordering::SeqCst)
+        };
+        let (admitting, asked) = (Arc::clone(&gate), ask(&is_asked));
+        context.set_repaint_observer(Box::new(move |info: RequestRepaintInfo| {
+            if info.delay.is_zero() && admitting.admits() {
+                asked();
+            }
+        }));
         Self {
-            app,
-            context: Context::default(),
+            app: App::launch(Arc::new(ask(&is_asked)), services, options),
+            context,
+            gate,
+            is_asked,
+            presented: 0,
             started,
             pointer: CANVAS_CENTER,
             pictures_ms: Vec::new(),
@@ -131,9 +159,15 @@ impl SimulatedUser {
             Some((shown.number, shown.wall_ms))
         };
         let before = shown(&self.app);
+        let is_asked = self.is_asked.swap(false, Ordering::SeqCst);
+        self.presented += usize::from(is_asked || !input.events.is_empty());
+        self.gate.begin(&input);
         let since = Instant::now();
-        let (context, app) = (&self.context, &mut self.app);
-        let mut output = context.run_ui(input, |ui| app.show(ui));
+        let (context, app, gate) = (&self.context, &mut self.app, &self.gate);
+        let mut output = context.run_ui(input, |ui| {
+            gate.show(ui.ctx());
+            app.show(ui);
+        });
         context.tessellate(output.shapes, output.pixels_per_point);
         let frame_ms = elapsed_ms(since);
         // No device uploads them.
@@ -170,17 +204,19 @@ impl SimulatedUser {
         mut events: impl FnMut(usize, &mut Self) -> Vec<Event>,
     ) -> Result<Movement, UserError> {
         self.pictures_ms.clear();
+        self.presented = 0;
         let frames_ms = (0..FRAMES).map(|number| {
             let events = events(number, self);
             self.frame(events)
         });
         let frames_ms = frames_ms.collect::<Vec<f64>>();
-        let end = Instant::now();
+        let (end, presented) = (Instant::now(), self.presented);
         let settled_ms = self.wait(App::is_settled)?;
         let until_shown = self.last_picture.saturating_duration_since(end);
         Ok(Movement {
             name,
             frames_ms,
+            presented,
             pictures_ms: std::mem::take(&mut self.pictures_ms),
             shown_ms: until_shown.as_secs_f64() * 1e3,
             settled_ms,
@@ -241,7 +277,8 @@ impl SimulatedUser {
         let (mut paths, held_m) = paths_near_center(document, one_in).ok_or_else(no_path)?;
         let view = self.app.canvas.camera.view().ok_or_else(no_path)?;
         // Another path may lie over the held one.
-        let (rule, px_per_m) = (self.app.settings.line_rule(), view.px_per_m());
+        let rule = self.app.settings.line_rule(self.app.canvas.px_per_point());
+        let px_per_m = view.px_per_m();
         let hit = document.pick(rule, px_per_m, held_m, HIT_RADIUS_PX, usize::MAX);
         paths.extend(hit.map(|hit| hit.path));
         self.app.edit(EditTask::view_change(move |document| {
@@ -284,4 +321,28 @@ fn paths_near_center(document: &Document, one_in: u64) -> Option<(PathSet, Point
         .filter_map(distance)
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((paths, nearest.1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::services::{TestServices, lanes};
+
+    #[test]
+    fn window_presents_one_frame_per_movement_of_the_pointer_and_none_at_rest() {
+        let services = TestServices::with([("site.arrow", lanes(3))]);
+        let method = Some("cpu".to_owned());
+        let movements = measure(services, "site.arrow".into(), method).unwrap();
+        let presented = |name: &str| {
+            let movement = movements.iter().find(|movement| movement.name == name);
+            movement.map(|movement| movement.presented)
+        };
+        assert_eq!(
+            (presented("still"), presented("hover")),
+            (Some(0), Some(FRAMES))
+        );
+        // Each movement of a drag or of the wheel may have a picture of its own.
+        let drag = presented("pan").unwrap();
+        assert!((FRAMES..=2 * FRAMES).contains(&drag), "{drag}");
+    }
 }

@@ -2,12 +2,14 @@
 
 use std::sync::{Arc, OnceLock};
 
-use eframe::egui::{Context, Ui, ViewportBuilder};
+use eframe::CreationContext;
+use eframe::egui::{Context, RawInput, RequestRepaintInfo, Ui};
 use guideway_layout::UserError;
 
 use crate::app::{App, FIRST_PICTURE_WAIT};
-use crate::background::RepaintHandle;
+use crate::background::{RedrawTimer, RepaintGate, RepaintHandle};
 use crate::launch_options::LaunchOptions;
+use crate::preferences::MIN_SIZE;
 use crate::services::{AppServices, WINDOW_ERROR};
 
 /// Opens the window and returns when it is closed. Must be called from the main thread.
@@ -15,24 +17,27 @@ use crate::services::{AppServices, WINDOW_ERROR};
 /// # Errors
 /// When there is no desktop to open a window on, or no graphics adapter that can draw it.
 pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), UserError> {
+    let window = Arc::<OnceLock<Context>>::default();
+    // The files load while the window opens.
+    let mut app = App::launch(repaint_handle(&window), services, launch);
+    app.first_picture_wait = FIRST_PICTURE_WAIT;
     let options = eframe::NativeOptions {
-        viewport: ViewportBuilder::default()
-            .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([320.0, 240.0])
+        viewport: app
+            .window_place
+            .builder()
+            .with_min_inner_size(MIN_SIZE)
             .with_drag_and_drop(true),
         // The window has no gradients, and dithering slows down software renderers.
         dithering: false,
         ..eframe::NativeOptions::default()
     };
-    let window = Arc::<OnceLock<Context>>::default();
-    // The files load while the window opens.
-    let mut app = App::new(repaint_handle(&window), services, launch);
-    app.first_picture_wait = FIRST_PICTURE_WAIT;
     let create: eframe::AppCreator<'_> = Box::new(move |creation| {
         app.apply_theme(&creation.egui_ctx);
+        adapt_to_adapter(&mut app, creation);
+        let repaints = Repaints::start(creation);
         // eframe calls this once, so the lock is empty.
         let _ = window.set(creation.egui_ctx.clone());
-        Ok(Box::new(Window(app)))
+        Ok(Box::new(Window { app, repaints }))
     });
     eframe::run_native("Guideway", options, create).map_err(|error| {
         UserError::new(
@@ -69,12 +74,72 @@ fn repaint_handle(window: &Arc<OnceLock<Context>>) -> RepaintHandle {
     })
 }
 
+/// Notes the graphics adapter, and spares one that is a processor.
+fn adapt_to_adapter(app: &mut App, creation: &CreationContext<'_>) {
+    let Some(state) = &creation.wgpu_render_state else {
+        return;
+    };
+    let info = state.adapter.get_info();
+    app.adapter = format!("{} ({})", info.name, info.backend);
+    if info.device_type == eframe::wgpu::DeviceType::Cpu {
+        // Each blink of the cursor and each step of a fade would draw the whole window.
+        creation.egui_ctx.all_styles_mut(|style| {
+            style.visuals.text_cursor.blink = false;
+            style.animation_time = 0.0;
+        });
+    }
+}
+
+/// The frames that the window shows beside those of input events.
+struct Repaints {
+    gate: Arc<RepaintGate>,
+    timer: RedrawTimer,
+}
+
+impl Repaints {
+    /// Takes over egui's requests for repaints from eframe, which would follow all of them.
+    fn start(creation: &CreationContext<'_>) -> Self {
+        let ctx = &creation.egui_ctx;
+        let native = creation.winit_window().map(Arc::downgrade);
+        let redraw = move || {
+            if let Some(window) = native.as_ref().and_then(|window| window.upgrade()) {
+                window.request_redraw();
+            }
+        };
+        let gate = Arc::new(RepaintGate::new());
+        let timer = RedrawTimer::start(redraw.clone());
+        let (admitting, timing) = (Arc::clone(&gate), timer.clone());
+        ctx.set_request_repaint_callback(|_| {});
+        ctx.set_repaint_observer(Box::new(move |info: RequestRepaintInfo| {
+            if !info.delay.is_zero() {
+                timing.after(info.delay);
+            } else if admitting.admits() {
+                redraw();
+            }
+        }));
+        Self { gate, timer }
+    }
+}
+
 /// Connects the application to eframe.
-struct Window(App);
+struct Window {
+    app: App,
+    repaints: Repaints,
+}
 
 impl eframe::App for Window {
+    fn raw_input_hook(&mut self, _ctx: &Context, input: &mut RawInput) {
+        self.repaints.timer.clear();
+        self.repaints.gate.begin(input);
+    }
+
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        self.0.show(ui);
+        self.repaints.gate.show(ui.ctx());
+        self.app.show(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.app.leave();
     }
 }
 

@@ -42,7 +42,7 @@ impl Image {
         }
     }
 
-    /// Reads a PNG or PGM image of at most 67 million pixels.
+    /// Reads a PNG, JPEG or PGM image of at most 67 million pixels.
     ///
     /// # Errors
     /// When the file cannot be read, is damaged, or has too many pixels.

@@ -13,7 +13,7 @@ const EXAMINED: u64 = 1 << 16;
 /// The way in which a file becomes a floor plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FloorPlanKind {
-    /// A PNG or PGM image, which needs an [`ImagePlacement`](crate::ImagePlacement).
+    /// A PNG, JPEG or PGM image, which needs an [`ImagePlacement`](crate::ImagePlacement).
     Image,
     /// A `map.yaml` of ROS, which places its image itself.
     RosMap,
@@ -52,6 +52,7 @@ mod tests {
         for (bytes, kind) in [
             (&b"P5 1 1 255\n\0"[..], FloorPlanKind::Image),
             (b"\x89PNG\r\n", FloorPlanKind::Image),
+            (b"\xFF\xD8\xFF\xE0", FloorPlanKind::Image),
             (b"image: a.pgm\norigin: [0, 0, 0]\n", FloorPlanKind::RosMap),
             (b"levels:\n", FloorPlanKind::Layout),
         ] {

@@ -23,6 +23,8 @@ use crate::vector::{write_draw_list, write_paths};
 pub struct Backdrop {
     /// A drawing or an image of the hall.
     pub floor_plan: Option<FloorPlan>,
+    /// Share of the background that is mixed into the floor plan, from 0 to 1.
+    pub floor_plan_fade: f64,
     /// Shapes over the floor plan, such as the grid of a window.
     pub lines: DrawList,
     /// The areas that a vehicle sweeps along paths of the topmost scene.
@@ -88,6 +90,7 @@ impl VisibleBackdrop<'_> {
         let others = others.map(|other| method.prepare(Arc::clone(other), budget));
         let prepared = PreparedBackdrop {
             floor_plan: floor_plan.transpose()?,
+            floor_plan_fade: self.backdrop.floor_plan_fade,
             lines: lines
                 .map(|lines| PreparedOverlay::new(lines, view))
                 .collect(),
@@ -111,7 +114,14 @@ impl VisibleBackdrop<'_> {
         page: &mut SvgWriter<'_, impl Write>,
     ) -> io::Result<()> {
         if let Some(plan) = &self.backdrop.floor_plan {
+            let fade = self.backdrop.floor_plan_fade;
+            if fade > 0.0 {
+                page.begin_faded_group(1.0 - fade.min(1.0))?;
+            }
             plan.write(view, page)?;
+            if fade > 0.0 {
+                page.end_group()?;
+            }
         }
         for lines in [grid, &self.backdrop.lines] {
             write_draw_list(lines, "grid", page)?;
@@ -134,6 +144,7 @@ impl VisibleBackdrop<'_> {
 /// A backdrop that renders strip by strip.
 pub(crate) struct PreparedBackdrop<'b> {
     floor_plan: Option<PreparedFloorPlan>,
+    floor_plan_fade: f64,
     lines: Vec<PreparedOverlay<'b>>,
     areas: Option<Areas>,
     others: Vec<Box<dyn Prepared>>,
@@ -163,7 +174,10 @@ impl PreparedBackdrop<'_> {
     ) -> Result<(), ComposeError> {
         frame.resize(strip.size());
         match &mut self.floor_plan {
-            Some(plan) => plan.render(strip, background, frame)?,
+            Some(plan) => {
+                plan.render(strip, background, frame)?;
+                fade_into(background, self.floor_plan_fade, frame);
+            }
             None => frame.pixels_mut().fill(background.to_u32().to_be_bytes()),
         }
         for lines in &self.lines {
@@ -178,5 +192,37 @@ impl PreparedBackdrop<'_> {
             std::mem::swap(frame, &mut self.scratch);
         }
         Ok(())
+    }
+}
+
+/// Mixes `fade` parts of the background, from 0 to 1, into all pixels of a frame.
+fn fade_into(background: Rgba, fade: f64, frame: &mut Frame) {
+    if fade <= 0.0 {
+        return;
+    }
+    let below = background.to_u32().to_be_bytes().map(f64::from);
+    let fade = fade.min(1.0);
+    for pixel in frame.pixels_mut() {
+        for (channel, below) in pixel.iter_mut().zip(below) {
+            *channel = (f64::from(*channel) * (1.0 - fade) + below * fade).round() as u8;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faded_pixels_lie_between_plan_and_background() {
+        let faded = |fade| {
+            let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
+            frame.pixels_mut()[0] = [0, 100, 200, 255];
+            fade_into(Rgba::WHITE, fade, &mut frame);
+            frame.pixels()[0]
+        };
+        assert_eq!(faded(0.0), [0, 100, 200, 255]);
+        assert_eq!(faded(0.25), [64, 139, 214, 255]);
+        assert_eq!((faded(1.0), faded(7.0)), ([255; 4], [255; 4]));
     }
 }

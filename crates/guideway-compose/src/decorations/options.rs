@@ -5,7 +5,7 @@ use guideway_document::decorations::DecorationStyle;
 use super::route::MarkedRoute;
 
 /// The decorations of a picture. The default is none.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Decorations {
     /// Lines at round coordinates, below the paths.
     pub has_grid: bool,
@@ -25,6 +25,8 @@ pub struct Decorations {
     pub route: Option<MarkedRoute>,
     /// One line at the top.
     pub title: Option<String>,
+    /// Pixels of the picture per point, the scale of texts; `None` derives it from the size.
+    pub px_per_point: Option<f64>,
 }
 
 impl Decorations {
@@ -40,6 +42,7 @@ impl Decorations {
             has_legend: true,
             route: None,
             title: Some(title.into()),
+            px_per_point: None,
         }
     }
 

@@ -69,7 +69,7 @@ pub(crate) fn place(
     let route = route.map(|route| route::draw(route, scene, view, paths, style));
     occupied.extend(route.iter().flat_map(|route| &route.occupied));
     if decorations.has_grid {
-        placed.grid = grid(view, style);
+        placed.grid = grid(view, None, style);
     }
     if decorations.has_marks() {
         let marks = visible_marks(decorations, scene, view, paths, style, &occupied);

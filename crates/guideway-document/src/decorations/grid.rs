@@ -13,14 +13,23 @@ const MAX_LINES: usize = 1000;
 /// Opacity of grid lines: visible, and fainter than any path.
 const OPACITY: f64 = 0.12;
 
-/// The grid of a view: lines one point wide, 1, 2 or 5 times a power of ten meters apart.
-pub fn grid(view: &View, style: &DecorationStyle) -> DrawList {
+/// Least distance between the lines of a given step, in points; below it every tenth is drawn.
+const MIN_GIVEN_POINTS: f64 = 8.0;
+
+/// The grid of a view: lines one point wide, `step_m` meters apart, or else 1, 2 or 5 times a power
+/// of ten meters.
+pub fn grid(view: &View, step_m: Option<f64>, style: &DecorationStyle) -> DrawList {
     let mut list = DrawList::default();
     let color = style.ink.with_opacity(OPACITY);
     let half_px = style.px_per_point / 2.0;
     let size = view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
-    let [x_px, y_px] = line_positions(view, MIN_SPACING_POINTS * style.px_per_point);
+    let px_per_m = view.px_per_m();
+    let step_m = match step_m {
+        Some(step_m) => coarser(step_m, MIN_GIVEN_POINTS * style.px_per_point / px_per_m),
+        None => round_step(MIN_SPACING_POINTS * style.px_per_point / px_per_m),
+    };
+    let [x_px, y_px] = line_positions(view, step_m);
     for x in x_px {
         let (left, right) = (x - half_px, x + half_px);
         list.fill_rectangle(color, Point::new(left, 0.0), Point::new(right, height));
@@ -32,10 +41,14 @@ pub fn grid(view: &View, style: &DecorationStyle) -> DrawList {
     list
 }
 
-/// Pixel positions of the vertical lines along x and of the horizontal lines along y, at least
-/// `min_px` apart.
-fn line_positions(view: &View, min_px: f64) -> [Vec<f64>; 2] {
-    let step_m = round_step(min_px / view.px_per_m());
+/// The step times the least power of ten, from 1, by which it is at least `least_m`.
+fn coarser(step_m: f64, least_m: f64) -> f64 {
+    let tens = (least_m / step_m).log10().ceil().max(0.0);
+    step_m * 10_f64.powf(tens)
+}
+
+/// Pixel positions of the vertical lines along x and of the horizontal lines along y.
+fn line_positions(view: &View, step_m: f64) -> [Vec<f64>; 2] {
     let visible = view.world_bounds();
     let lines = |from_m: f64, to_m: f64| {
         let (first, last) = ((from_m / step_m).ceil(), (to_m / step_m).floor());
@@ -64,7 +77,7 @@ mod tests {
     fn lines_are_at_round_coordinates() {
         let size = FrameSize::new(400, 300).unwrap();
         let view = View::new(size, Point::new(3.0, -2.0), 20.0).unwrap();
-        let [x_px, y_px] = line_positions(&view, 96.0);
+        let [x_px, y_px] = line_positions(&view, 5.0);
         let meters = |x, y| view.world_from_pixel(Point::new(x, y));
         let xs: Vec<_> = x_px.iter().map(|&x| meters(x, 0.0).x.round()).collect();
         let ys: Vec<_> = y_px.iter().map(|&y| meters(0.0, y).y.round()).collect();
@@ -72,10 +85,24 @@ mod tests {
     }
 
     #[test]
+    fn given_step_holds_until_its_lines_are_too_close() {
+        let lines = |px_per_m| {
+            let size = FrameSize::new(400, 400).unwrap();
+            let view = View::new(size, Point::new(3.0, 3.0), px_per_m).unwrap();
+            let style = DecorationStyle::new(Rgba::WHITE, 1.0);
+            let list = grid(&view, Some(1.5), &style);
+            let lines: usize = list.fills.iter().map(|fill| fill.polygons.len()).sum();
+            lines / 2
+        };
+        // 400 px at 20 px/m are 20 m; at 5 px/m the lines are 7.5 px apart, so 15 m it is.
+        assert_eq!((lines(20.0), lines(5.0)), (13, 5));
+    }
+
+    #[test]
     fn number_of_lines_is_bounded_far_from_the_origin() {
         let size = FrameSize::new(400, 300).unwrap();
         let view = View::new(size, Point::new(1e9, 1e9), 1e6).unwrap();
-        let list = grid(&view, &DecorationStyle::new(Rgba::WHITE, 1.0));
+        let list = grid(&view, None, &DecorationStyle::new(Rgba::WHITE, 1.0));
         let lines: usize = list.fills.iter().map(|fill| fill.polygons.len()).sum();
         assert!(lines <= 2 * MAX_LINES);
     }

@@ -1,24 +1,24 @@
-//! Reads an image file; its first bytes decide between PNG and PGM.
+//! Reads an image file; its first bytes decide between PNG, JPEG and PGM.
 
 use std::path::Path;
 
 use guideway_layout::Place;
 
 use super::image::Raster;
-use super::{pgm, png};
+use super::{jpeg, pgm, png};
 use crate::read::{quote_or_hex, read_file_bytes};
 use crate::{Problem, ReadError, ReadOptions};
 
 /// Largest image file, in bytes. Derived: 8 bytes for each pixel of the largest image, the most
-/// that PNG and PGM take, and as much again for texts in it.
+/// that PNG, JPEG and PGM take, and as much again for texts in it.
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// Returns `true` if bytes begin as an image of a format that [`read_file`] reads.
 pub fn is_raster(bytes: &[u8]) -> bool {
-    png::is_png(bytes) || pgm::is_pgm(bytes)
+    png::is_png(bytes) || jpeg::is_jpeg(bytes) || pgm::is_pgm(bytes)
 }
 
-/// Reads a PNG or PGM image.
+/// Reads a PNG, JPEG or PGM image.
 ///
 /// # Errors
 /// When the file cannot be read, has another format, is damaged, or exceeds a limit: 1 GiB,
@@ -32,6 +32,9 @@ fn read(bytes: Vec<u8>) -> Result<Raster, Problem> {
     if png::is_png(&bytes) {
         return png::read(bytes);
     }
+    if jpeg::is_jpeg(&bytes) {
+        return jpeg::read(&bytes);
+    }
     if pgm::is_pgm(&bytes) {
         return pgm::read(&bytes);
     }
@@ -44,7 +47,7 @@ fn read(bytes: Vec<u8>) -> Result<Raster, Problem> {
             "an image that begins with {}",
             quote_or_hex(&bytes[..bytes.len().min(8)])
         ),
-        remedy: "Save the image as PGM (P2 or P5) or PNG".into(),
+        remedy: "Save the image as PNG, JPEG or PGM (P2 or P5)".into(),
     })
 }
 

@@ -176,6 +176,14 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         )
     }
 
+    /// Begins a group that lets what is below it shine through, from opacity 0 to 1.
+    ///
+    /// # Errors
+    /// When writing fails.
+    pub fn begin_faded_group(&mut self, opacity: f64) -> io::Result<()> {
+        writeln!(self.out, r#"<g opacity="{opacity:.3}">"#)
+    }
+
     /// Ends the innermost group.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! One frame: takes the results of background threads, shows all parts, and routes their actions.
 
+use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
@@ -15,11 +16,6 @@ use crate::files::{Layer, LayerContext, LayerEvent};
 use crate::panels::{MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
-use crate::tools::PointerEvent;
-
-/// Width of the side panel, in points. It is fixed: the canvas must not resize while the content of
-/// the panel follows the pointer.
-const SIDE_PANEL_WIDTH: f32 = 320.0;
 
 impl App {
     /// Shows one frame.
@@ -27,14 +23,14 @@ impl App {
         let ctx = ui.ctx().clone();
         self.poll(&ctx);
         self.take_input(&ctx);
+        self.take_hover(&ctx);
+        self.follow_theme(&ctx);
+        self.remember(&ctx);
         self.update_title(&ctx);
         Panel::top("menus").show(ui, |ui| {
             let bar = MenuBar {
-                files: &self.files,
+                commands: self.command_state(),
                 writer: &self.writer,
-                settings: &self.settings,
-                has_swept_areas: self.swept_areas.is_visible,
-                tool: self.tools.tool(),
             };
             let actions = bar.show(ui);
             self.apply_all(actions, &ctx);
@@ -48,17 +44,31 @@ impl App {
             };
             bar.show(ui);
         });
-        let side = Panel::right("side").exact_size(SIDE_PANEL_WIDTH);
+        // Its width is fixed: the canvas must not resize while the content of the panel follows the
+        // pointer.
+        let side = Panel::right("side").exact_size(self.panel_width);
         side.show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.style_mut().wrap_mode = Some(TextWrapMode::Wrap);
                 self.show_side_panel(ui, &ctx);
             });
         });
-        CentralPanel::default()
-            .frame(Frame::NONE)
-            .show(ui, |ui| self.show_canvas(ui));
-        let actions = self.dialogs.show(&ctx, &self.files);
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            self.show_canvas(ui);
+            let canvas = self.canvas.screen().rect;
+            let chosen = self.show_context_menu(ui);
+            self.apply_all(chosen.into_iter().collect(), &ctx);
+            let actions = self.welcome.show(ui, canvas, &self.files, &self.floor_plan);
+            self.apply_all(actions, &ctx);
+        });
+        let actions = self.show_floor_plan_window(&ctx);
+        self.apply_all(actions, &ctx);
+        let services = Arc::clone(&self.context.services);
+        let canvas = self.canvas.screen().rect;
+        let dialogs = &mut self.dialogs;
+        let mut actions = dialogs.show(&ctx, &self.files, &*services, canvas);
+        actions.extend(dialogs.settings.show(&ctx, &mut self.settings));
+        dialogs.about.show(&ctx, &self.adapter, self.methods.name());
         self.apply_all(actions, &ctx);
     }
 
@@ -70,7 +80,11 @@ impl App {
             Some(layer) => {
                 let is_changed = layer.document().is_some_and(Document::is_changed);
                 let mark = if is_changed { " *" } else { "" };
-                format!("{}{mark} - Guideway", layer.name())
+                let name = match layer.is_untitled() {
+                    true => format!("{} (not saved yet)", layer.name()),
+                    false => layer.name(),
+                };
+                format!("{name}{mark} - Guideway")
             }
             None => "Guideway".to_owned(),
         };
@@ -101,9 +115,6 @@ impl App {
         if let Some(event) = self.canvas.show(ui) {
             self.point(event);
         }
-        if !self.canvas.is_pressed() {
-            self.point(PointerEvent::Hover(self.canvas.pointer_px()));
-        }
         if let Some(cursor) = self.canvas.cursor() {
             ui.ctx().set_cursor_icon(cursor);
         } else if self.canvas.pointer_px().is_some() {
@@ -128,6 +139,7 @@ impl App {
             settings: &self.settings,
             files: &self.files,
             floor_plan: &self.floor_plan,
+            plan_editor: &self.plan_editor,
             swept_areas: &self.swept_areas,
             tools: &self.tools,
         };
@@ -139,7 +151,7 @@ impl App {
         let Some(view) = self.canvas.picture_view() else {
             return;
         };
-        let style = self.settings.style();
+        let style = self.settings.style(self.canvas.px_per_point());
         let layers = self.files.layers_mut().iter_mut();
         for layer in layers.filter(|layer| layer.is_visible) {
             layer.picture.request(RenderRequest { view, style });
@@ -188,7 +200,11 @@ impl App {
         match event {
             LayerEvent::Appeared(bounds) => {
                 // The first file sets the view; others join it.
-                if let (0, Some(bounds)) = (index, bounds) {
+                if index == 0
+                    && let Some((center_m, px_per_m)) = self.project.view.take()
+                {
+                    self.canvas.camera.look_at(center_m, px_per_m);
+                } else if let (0, Some(bounds)) = (index, bounds) {
                     self.canvas.camera.fit(bounds);
                 }
             }
@@ -198,6 +214,7 @@ impl App {
                 if stage == LoadStage::Editable {
                     let options = self.settings.scene_options();
                     self.files.recolor_one(index, &options);
+                    self.restore_level(index);
                     // They may show the replaced document.
                     self.swept_areas.clear();
                 }
@@ -239,27 +256,15 @@ impl App {
             self.open_dropped(file.path());
         }
         if let Some(written) = self.writer.poll() {
-            if let Some(path) = written.layout_path {
-                let saved_as = written.result.is_ok().then_some(path);
-                let notices = self.files.end_save(saved_as);
-                self.notify_all(notices);
-            }
-            if written.result.is_err() {
-                self.dialogs.leave.close();
-            }
-            let text = written.result.unwrap_or_else(|error| error.to_string());
-            self.dialogs.notices.add(text);
+            self.end_write(written);
         }
         self.save_before_leaving();
         let notices = self.files.poll_watcher(&self.settings.scene_options());
         self.notify_all(notices);
-        let notice = self.clipboard.poll(ctx);
-        self.notify_all(notice);
-    }
-
-    fn notify_all(&mut self, notices: impl IntoIterator<Item = String>) {
-        for notice in notices {
-            self.dialogs.notices.add(notice);
+        match self.clipboard.poll(ctx) {
+            Some(Ok(news)) => self.dialogs.notices.inform(news),
+            Some(Err(error)) => self.dialogs.notices.add(error.to_string()),
+            None => {}
         }
     }
 }

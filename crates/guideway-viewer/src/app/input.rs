@@ -3,8 +3,9 @@
 
 use eframe::egui::{Context, Event, Key};
 
-use super::routing::release_keyboard;
+use super::basics::release_keyboard;
 use super::state::App;
+use crate::backdrop::PlanTask;
 use crate::command::{Command, command_of};
 use crate::tools::{PointerEvent, Tool};
 
@@ -19,6 +20,15 @@ impl App {
         }
         let mut is_left = is_left.into_iter();
         ctx.input_mut(|input| input.events.retain(|_| is_left.next().unwrap_or(true)));
+    }
+
+    /// Tells the tools what is under the pointer, before the panels that show it: so one frame per
+    /// movement is enough.
+    pub(super) fn take_hover(&mut self, ctx: &Context) {
+        self.canvas.follow_pointer(ctx);
+        if !self.canvas.is_pressed() {
+            self.point(PointerEvent::Hover(self.canvas.pointer_px()));
+        }
     }
 
     /// Performs the command of a pressed key. Returns `true` if there is one.
@@ -73,8 +83,12 @@ impl App {
         {
             self.apply_all(vec![action], ctx);
         }
-        let primary_pans = self.tools.tool().adds_points();
+        let edits_plan = self.plan_editor.task != PlanTask::None;
+        let primary_pans = self.tools.tool().adds_points() && !edits_plan;
         for event in self.canvas.pointer_events(event, ctx, primary_pans) {
+            if self.point_at_plan(event) {
+                continue;
+            }
             self.point(event);
             if matches!(event, PointerEvent::Clicked(..)) {
                 release_keyboard(ctx);

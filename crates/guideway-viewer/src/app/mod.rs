@@ -2,16 +2,31 @@
 //!
 //! | step | input | output | file |
 //! |---|---|---|---|
-//! | start | launch options | [`App`] with all parts | `state` |
+//! | start | launch options | [`App`] with all parts, files that load | `state`, `opening` |
 //! | frame | results of threads, input of egui | shown parts, actions | `frame` |
+//! | remember | settings and window | a file in the state folder | `remember` |
 //! | input | keys and pointer events, in order | commands, events of the tools | `input` |
 //! | route | action, command, pointer event | calls of the owning part | `routing` |
-//! | file commands | paths | loads, saves, exports | `file_commands` |
+//! | context menu | a right click | a selection, commands | `context_menu` |
+//! | file names | questions for file names | actions | `file_dialogs` |
+//! | file commands | paths | loads, exports | `file_commands` |
+//! | floor plan | a file, clicks, drags | a plan at its place | `floor_plan` |
+//! | project | files, plan, view, look | a project file, and back | `project` |
+//! | save | the active file | a written file, or a question | `saving` |
 
+mod basics;
+mod context_menu;
 mod file_commands;
+mod file_dialogs;
+mod floor_plan;
 mod frame;
 mod input;
+mod open_project;
+mod opening;
+mod project;
+mod remember;
 mod routing;
+mod saving;
 mod state;
 
 pub(crate) use state::{App, FIRST_PICTURE_WAIT};

@@ -1,19 +1,17 @@
 //! Routes actions, commands and pointer events to the part that owns the state.
 
-use eframe::egui::{Context, Theme};
+use eframe::egui::{Context, Popup};
 use guideway_document::{Document, Element, Elements, SelectMode};
 use guideway_spline::{Bounds, Point};
 
+use super::basics::{release_keyboard, tool_context};
 use super::state::App;
 use crate::action::Action;
-use crate::canvas::Canvas;
 use crate::command::Command;
-use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
-use crate::files::{LayerEvent, OpenFiles};
-use crate::panels::dialogs::PromptKind;
+use crate::file_purpose::PromptKind;
 use crate::selection::selection_command;
-use crate::tools::{PointerEvent, Tool, ToolContext, ToolEffect};
+use crate::tools::{PointerEvent, Tool, ToolEffect};
 
 /// Distance of one key press of a pan command, in pixels.
 const PAN_STEP_PX: f64 = 80.0;
@@ -32,7 +30,6 @@ impl App {
         let repaint = &self.context.repaint;
         match action {
             Action::Command(command) => self.perform(command, ctx),
-            Action::SelectTool(tool) => self.tools.select(tool),
             Action::Edit(task) => self.edit(task),
             Action::SelectByQuery(mode) => self.select_by_query(mode),
             Action::Search => self.find.search(self.files.document(), repaint),
@@ -42,15 +39,25 @@ impl App {
                     layer.tasks.check(layer.slot.document(), options, repaint);
                 }
             }
-            Action::Open(path) => self.open(path),
+            Action::Open(path) => self.open_any(path),
             Action::SaveAs(path) => self.save_as(path),
+            Action::SaveProject(path) => self.save_project_as(path),
+            Action::SaveProjectOver(path) => self.save_project(path),
             Action::SaveOver(path) => self.save(path),
+            Action::SaveLossy(path, losses) => self.save_lossy(path, losses),
+            Action::Browse(kind) => self.browse(kind),
+            Action::Picked(picked) => {
+                if let Some(action) = self.take_picked(picked) {
+                    self.apply(action, ctx);
+                }
+            }
             Action::Export(export) => self.export_as(export),
             Action::ExportOver(export) => self.export(export),
             Action::SetFloorPlan(text) => {
                 let services = &self.context.services;
                 self.floor_plan.set(&text, services, repaint);
             }
+            Action::PlaceFloorPlan(placement) => self.place_floor_plan(&placement),
             Action::Activate(index) => self.files.activate(index),
             Action::Close(index) => self.request_close(index),
             Action::CloseWithoutSaving(index) => {
@@ -78,28 +85,25 @@ impl App {
     /// Runs a command of a menu or shortcut.
     pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
         let settings = &mut self.settings;
-        let prompt = |app: &mut Self, kind| {
-            let file = app.files.active().map(|layer| layer.path());
-            app.dialogs.prompt.ask(kind, file);
-        };
         match command {
-            Command::Open => prompt(self, PromptKind::Open),
+            Command::Open => self.ask_for_file(PromptKind::Open),
             Command::OpenRecent => self.dialogs.recent.open(self.files.recent().files()),
+            Command::ExampleSite => self.open_example(),
             Command::Reload => self.request_reload(),
             Command::Save => self.save_in_place(),
-            Command::SaveAs => prompt(self, PromptKind::SaveAs),
-            Command::FloorPlan => {
-                let text = self.floor_plan.text().to_owned();
-                let prompt = &mut self.dialogs.prompt;
-                prompt.ask_with_text(PromptKind::FloorPlan, text);
-            }
-            Command::ExportPng => prompt(self, PromptKind::ExportPng),
-            Command::ExportSvg => prompt(self, PromptKind::ExportSvg),
+            Command::SaveAs => self.ask_for_file(PromptKind::SaveAs),
+            Command::FloorPlan => self.ask_for_file(PromptKind::FloorPlan),
+            Command::SaveProject => self.save_project_in_place(),
+            Command::PlaceFloorPlan => self.plan_editor.is_open ^= true,
+            Command::ExportPng => self.ask_for_file(PromptKind::ExportPng),
+            Command::ExportSvg => self.ask_for_file(PromptKind::ExportSvg),
             Command::CopyPicture => self.copy_picture(),
             Command::Close => self.request_close(self.files.active_index()),
             Command::Quit => self.dialogs.leave.quit(ctx, &self.files),
             Command::NextFile => self.files.activate_next(),
             Command::Find => self.find.wants_focus = true,
+            Command::Settings => self.dialogs.settings.is_open ^= true,
+            Command::About => self.dialogs.about.is_open ^= true,
             Command::Shortcuts => self.dialogs.shortcuts.is_open ^= true,
             Command::Cancel => self.cancel(ctx),
             Command::FinishPath => self.finish_path(),
@@ -139,9 +143,8 @@ impl App {
             Command::ThesisRule => settings.is_thesis_rule ^= true,
             Command::SweptAreas => self.swept_areas.is_visible ^= true,
             Command::Dark => {
-                settings.is_dark ^= true;
+                settings.set_dark(!settings.is_dark);
                 self.apply_theme(ctx);
-                self.recolor();
             }
         }
     }
@@ -184,13 +187,20 @@ impl App {
         }
     }
 
-    /// Ends the first of these that there is: a dialog, the focus of a field, a gesture, exports
-    /// and loads, a tool, the selection, notices.
+    /// Ends the first of these that there is: a menu, a dialog, the focus of a field, a gesture,
+    /// exports and loads, a tool, the selection, notices.
     fn cancel(&mut self, ctx: &Context) {
+        if Popup::is_any_open(ctx) {
+            return Popup::close_all(ctx);
+        }
         let is_typing = ctx.text_edit_focused();
         self.properties.discard();
         release_keyboard(ctx);
         if self.dialogs.close() || is_typing {
+            return;
+        }
+        if self.plan_editor.cancel(&mut self.floor_plan) {
+            self.canvas.release_pointer();
             return;
         }
         if self.tools.has_gesture() {
@@ -224,17 +234,6 @@ impl App {
             is_cancelled = true;
         }
         is_cancelled
-    }
-
-    /// Runs an edit of the active document. One that takes longer than a frame continues in the
-    /// background.
-    pub(crate) fn edit(&mut self, task: EditTask) {
-        let (wait, repaint) = (self.edit_wait, &self.context.repaint);
-        let layer = self.files.active_mut();
-        let event = layer.and_then(|layer| layer.run(task, wait, repaint));
-        if let Some(LayerEvent::Notice(text)) = event {
-            self.dialogs.notices.add(text);
-        }
     }
 
     /// Routes a pointer event to the tools.
@@ -293,39 +292,5 @@ impl App {
     pub(crate) fn set_method(&mut self, chosen: Option<String>) {
         self.methods.choose(chosen);
         self.files.set_method(self.methods.name());
-    }
-
-    /// Recolors all files whose scenes have other options.
-    pub(crate) fn recolor(&mut self) {
-        self.files.recolor(&self.settings.scene_options());
-    }
-
-    /// Applies the light or dark theme to all panels.
-    pub(crate) fn apply_theme(&self, ctx: &Context) {
-        ctx.set_theme(match self.settings.is_dark {
-            true => Theme::Dark,
-            false => Theme::Light,
-        });
-    }
-}
-
-/// The input of the tools; `None` while the canvas has no size.
-fn tool_context<'a>(
-    files: &'a OpenFiles,
-    canvas: &Canvas,
-    settings: &DisplaySettings,
-) -> Option<ToolContext<'a>> {
-    Some(ToolContext {
-        view: canvas.camera.view()?,
-        document: files.document(),
-        line_rule: settings.line_rule(),
-        picks_symbols: settings.has_symbols,
-    })
-}
-
-/// Takes the keyboard focus from a text field, so that shortcuts work again.
-pub(super) fn release_keyboard(ctx: &Context) {
-    if let Some(field) = ctx.memory(|memory| memory.focused()) {
-        ctx.memory_mut(|memory| memory.surrender_focus(field));
     }
 }

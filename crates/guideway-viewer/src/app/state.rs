@@ -5,16 +5,18 @@ use std::time::Duration;
 
 use guideway_document::Document;
 
-use crate::LaunchOptions;
-use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
+use super::open_project::OpenProject;
+use crate::backdrop::{FloorPlanLayer, PlanEditor, SweptAreasLayer};
 use crate::background::RepaintHandle;
 use crate::canvas::Canvas;
+use crate::command::ContextPlace;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::panels::dialogs::Dialogs;
-use crate::panels::{FindingsPanel, PropertiesPanel};
+use crate::panels::{FindingsPanel, PropertiesPanel, Welcome};
+use crate::preferences::{PreferencesFile, WindowPlace};
 use crate::render_queue::MethodSelection;
 use crate::selection::{ExactEdit, Find};
 use crate::services::AppServices;
@@ -34,14 +36,25 @@ pub(crate) struct App {
     pub(crate) settings: DisplaySettings,
     pub(crate) methods: MethodSelection,
     pub(crate) floor_plan: FloorPlanLayer,
+    pub(crate) plan_editor: PlanEditor,
     pub(crate) swept_areas: SweptAreasLayer,
     pub(crate) find: Find,
     pub(crate) exact_edit: ExactEdit,
     pub(crate) findings: FindingsPanel,
     pub(crate) properties: PropertiesPanel,
     pub(crate) dialogs: Dialogs,
+    pub(crate) welcome: Welcome,
+    pub(super) project: OpenProject,
+    /// The element under the open context menu.
+    pub(super) context_place: ContextPlace,
+    /// The graphics adapter that shows the window; empty without a window.
+    pub(crate) adapter: String,
     pub(crate) writer: FileWriter,
     pub(crate) clipboard: Clipboard,
+    pub(super) preferences_file: PreferencesFile,
+    pub(crate) window_place: WindowPlace,
+    /// Width of the side panel, in points.
+    pub(super) panel_width: f32,
     /// The title that the window shows.
     pub(crate) title: String,
     /// Longest time that a frame waits for an edit.
@@ -51,40 +64,46 @@ pub(crate) struct App {
 }
 
 impl App {
-    /// Starts to read the files of `options`. Background threads call `repaint`.
+    /// An application without files. Background threads call `repaint`.
     pub(crate) fn new(
         repaint: RepaintHandle,
         services: Arc<dyn AppServices>,
-        options: LaunchOptions,
+        method: Option<String>,
     ) -> Self {
         let context = LayerContext { services, repaint };
+        let (preferences_file, notice) = PreferencesFile::load(context.services.state_folder());
+        let preferences = preferences_file.saved().clone();
         let mut app = Self {
             files: OpenFiles::new(context.clone()),
             context,
             canvas: Canvas::default(),
             tools: Tools::default(),
-            settings: DisplaySettings::default(),
-            methods: MethodSelection::new(options.method),
+            settings: preferences.look,
+            methods: MethodSelection::new(method),
             floor_plan: FloorPlanLayer::default(),
+            plan_editor: PlanEditor::default(),
             swept_areas: SweptAreasLayer::default(),
             find: Find::default(),
             exact_edit: ExactEdit::default(),
             findings: FindingsPanel::default(),
             properties: PropertiesPanel::default(),
             dialogs: Dialogs::default(),
+            welcome: Welcome::default(),
+            project: OpenProject::default(),
+            context_place: ContextPlace::default(),
+            adapter: String::new(),
             writer: FileWriter::default(),
             clipboard: Clipboard::default(),
+            preferences_file,
+            window_place: preferences.window,
+            panel_width: preferences.panel_width,
             title: String::new(),
             edit_wait: EDIT_WAIT,
             first_picture_wait: Duration::ZERO,
         };
-        let scene_options = app.settings.scene_options();
-        for file in options.files {
-            app.files
-                .open(file, app.methods.name(), scene_options.clone());
+        if let Some(notice) = notice {
+            app.dialogs.notices.add(notice);
         }
-        let LayerContext { services, repaint } = &app.context;
-        app.floor_plan.set(&options.floor_plan, services, repaint);
         app
     }
 

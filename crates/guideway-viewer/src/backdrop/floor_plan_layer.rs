@@ -6,8 +6,9 @@ use eframe::egui::{Context, TextureHandle};
 use guideway_compose::{ComposeError, FloorPlan, PreparedFloorPlan};
 use guideway_layout::UserError;
 use guideway_scene::{Budget, Frame, Rgba, Strip, View};
-use guideway_spline::Bounds;
+use guideway_spline::{Bounds, Point};
 
+use super::plan_placement::PlanPlacement;
 use crate::background::{BackgroundTask, RepaintHandle};
 use crate::render_queue::BackgroundPicture;
 use crate::services::AppServices;
@@ -36,21 +37,50 @@ impl ReadyPlan {
 }
 
 /// The floor plan, if there is one.
-#[derive(Default)]
 pub(crate) struct FloorPlanLayer {
     /// File and placement as typed; empty without a plan.
     text: String,
     pub(crate) is_visible: bool,
+    /// True if no click or drag moves or scales the plan.
+    pub(crate) is_locked: bool,
+    /// From 0 to 1.
+    pub(crate) opacity: f32,
+    /// Distance by which a drag has moved the plan that is shown, in meters.
+    pub(crate) shift_m: Point<f64>,
+    /// True if the plan that is being read is not one that was shown elsewhere.
+    is_new: bool,
     reading: Option<BackgroundTask<Result<ReadyPlan, UserError>>>,
     ready: Option<Arc<ReadyPlan>>,
     read_error: Option<String>,
     picture: BackgroundPicture<()>,
 }
 
+impl Default for FloorPlanLayer {
+    fn default() -> Self {
+        Self {
+            text: String::new(),
+            is_visible: false,
+            is_locked: false,
+            opacity: 1.0,
+            shift_m: Point::default(),
+            is_new: true,
+            reading: None,
+            ready: None,
+            read_error: None,
+            picture: BackgroundPicture::default(),
+        }
+    }
+}
+
 impl FloorPlanLayer {
     /// File and placement as typed; empty without a plan.
     pub(crate) fn text(&self) -> &str {
         &self.text
+    }
+
+    /// Returns `true` if there is no plan.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.text.is_empty()
     }
 
     /// Starts to read another plan; an empty text removes the present one.
@@ -67,9 +97,30 @@ impl FloorPlanLayer {
         }
         self.text = text.to_owned();
         self.is_visible = true;
+        self.read(services, repaint);
+    }
+
+    /// Shows the plan at another place. The old one stays until it is read anew.
+    pub(crate) fn place(
+        &mut self,
+        placement: &PlanPlacement,
+        services: &Arc<dyn AppServices>,
+        repaint: &RepaintHandle,
+    ) {
+        self.text = placement.text();
+        self.is_new = self.ready.is_none();
+        self.read(services, repaint);
+    }
+
+    fn read(&mut self, services: &Arc<dyn AppServices>, repaint: &RepaintHandle) {
         let (services, text) = (Arc::clone(services), self.text.clone());
         let read = move || Ok(ReadyPlan::new(services.read_floor_plan(&text)?)?);
         self.reading = Some(BackgroundTask::start(repaint, read));
+    }
+
+    /// File and placement; `None` without a plan, or if its text is not understood.
+    pub(crate) fn placement(&self) -> Option<PlanPlacement> {
+        PlanPlacement::parse(&self.text).filter(|_| !self.is_empty())
     }
 
     /// Returns `true` if the plan is being read.
@@ -101,8 +152,15 @@ impl FloorPlanLayer {
         self.picture.poll(ctx, "floor plan");
         let result = self.reading.as_ref().and_then(BackgroundTask::result)?;
         self.reading = None;
+        self.shift_m = Point::default();
         match result.flatten() {
-            Ok(ready) => self.ready.insert(Arc::new(ready)).plan.bounds(),
+            Ok(ready) => {
+                // It shows the plan at its old place.
+                self.picture.clear();
+                self.read_error = None;
+                let bounds = self.ready.insert(Arc::new(ready)).plan.bounds();
+                bounds.filter(|_| self.is_new)
+            }
             Err(error) => {
                 self.read_error = Some(error.to_string());
                 None

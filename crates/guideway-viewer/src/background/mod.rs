@@ -1,7 +1,12 @@
-//! Work on other threads: one task with one result, and the handle that wakes the window.
+//! Work on other threads: one task with one result, the handle that wakes the window, and which
+//! requests for a repaint show a frame.
 
+mod redraw_timer;
+mod repaint_gate;
 mod repaint_handle;
 mod task;
 
+pub(crate) use redraw_timer::RedrawTimer;
+pub(crate) use repaint_gate::RepaintGate;
 pub(crate) use repaint_handle::RepaintHandle;
 pub(crate) use task::BackgroundTask;

@@ -101,6 +101,14 @@ impl Camera {
         }
     }
 
+    /// Shows this point at the center, at this scale; enters the view history.
+    pub(crate) fn look_at(&mut self, center_m: Point<f64>, px_per_m: f64) {
+        self.pending_fit = None;
+        self.settle();
+        self.move_to(Position { center_m, px_per_m });
+        self.settle();
+    }
+
     /// Shows a box with its surroundings, for an element that may be a point.
     pub(crate) fn zoom_to(&mut self, bounds: Bounds<f64>) {
         let size_m = bounds.size();

@@ -25,6 +25,8 @@ pub(crate) struct Canvas {
     screen: Screen,
     pointer_px: Option<Point<f64>>,
     pointer: PointerTracker,
+    /// The area of the canvas in the present frame.
+    response: Option<Response>,
     /// Longest side of a texture of this computer, in pixels.
     max_texture_side: u32,
 }
@@ -39,6 +41,7 @@ impl Default for Canvas {
             },
             pointer_px: None,
             pointer: PointerTracker::default(),
+            response: None,
             max_texture_side: 0,
         }
     }
@@ -48,6 +51,11 @@ impl Canvas {
     /// Upper left corner of the canvas in the window.
     pub(crate) fn origin(&self) -> Pos2 {
         self.screen.rect.min
+    }
+
+    /// The area of the canvas in the present frame.
+    pub(crate) fn response(&self) -> Option<Response> {
+        self.response.clone()
     }
 
     pub(crate) fn screen(&self) -> Screen {
@@ -80,6 +88,7 @@ impl Canvas {
             .resize(size_px.x.round() as u32, size_px.y.round() as u32);
         self.max_texture_side = ui.input(|input| input.max_texture_side) as u32;
         self.pointer_px = response.hover_pos().map(|at| self.screen.pixel(at));
+        self.response = Some(response.clone());
         let was_pressed = self.pointer.is_pressed();
         self.wheel(ui, &response);
         let is_moving = ui.input(|input| input.pointer.any_down() || input.is_scrolling());
@@ -87,6 +96,13 @@ impl Canvas {
             self.camera.settle();
         }
         (was_pressed && !self.pointer.is_pressed()).then_some(PointerEvent::Cancelled)
+    }
+
+    /// Takes the place of the pointer before the canvas is shown.
+    pub(crate) fn follow_pointer(&mut self, ctx: &Context) {
+        let at = ctx.input(|input| input.pointer.hover_pos());
+        let at = at.filter(|at| self.is_uncovered(*at, ctx));
+        self.pointer_px = at.map(|at| self.screen.pixel(at));
     }
 
     /// Handles a pointer event of the window. Pans the camera, and returns what reaches the tools.

@@ -18,7 +18,7 @@ use super::paint_gesture::{
     paint_rings,
 };
 use super::screen::Screen;
-use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
+use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanTask, SweptAreasLayer};
 use crate::display_settings::DisplaySettings;
 use crate::files::{Layer, OpenFiles};
 use crate::tools::{Gesture, Tool, ToolContext, Tools};
@@ -34,6 +34,7 @@ pub(crate) struct CanvasPainter<'a> {
     pub(crate) settings: &'a DisplaySettings,
     pub(crate) files: &'a OpenFiles,
     pub(crate) floor_plan: &'a FloorPlanLayer,
+    pub(crate) plan_editor: &'a PlanEditor,
     pub(crate) swept_areas: &'a SweptAreasLayer,
     pub(crate) tools: &'a Tools,
 }
@@ -46,7 +47,7 @@ impl CanvasPainter<'_> {
         let list = |list| paint_draw_list(painter, self.screen, &list);
         let background = color32(self.settings.background());
         painter.rect_filled(self.screen.rect, 0.0, background);
-        self.paint_picture(painter, self.floor_plan.shown());
+        self.paint_floor_plan(painter);
         list(self.settings.grid(&self.view, px_per_point));
         self.paint_picture(painter, self.swept_areas.shown());
         for layer in self.files.visible() {
@@ -66,7 +67,44 @@ impl CanvasPainter<'_> {
         if let Some((colors, _)) = colors {
             list(colors);
         }
+        self.paint_plan_task(painter);
         self.paint_messages(painter);
+    }
+
+    /// Paints the floor plan, faded, and moved by a drag.
+    fn paint_floor_plan(&self, painter: &Painter) {
+        let Some((texture, of)) = self.floor_plan.shown() else {
+            return;
+        };
+        let by = self.floor_plan.shift_m;
+        let scale = self.view.px_per_m() / f64::from(self.screen.px_per_point);
+        let by = Vec2::new((by.x * scale) as f32, (-by.y * scale) as f32);
+        let rect = self.screen.picture_rect(of, &self.view).translate(by);
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let opacity = (self.floor_plan.opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
+        painter.image(
+            texture.id(),
+            rect,
+            whole,
+            Color32::from_white_alpha(opacity),
+        );
+    }
+
+    /// Paints the points by which the floor plan is being scaled.
+    fn paint_plan_task(&self, painter: &Painter) {
+        let PlanTask::Calibrate(points) = &self.plan_editor.task else {
+            return;
+        };
+        let points = points.iter();
+        let points = points.map(|at_m| self.screen.point(self.view.pixel_from_world(*at_m)));
+        let points: Vec<Pos2> = points.collect();
+        let stroke = Stroke::new(2.0, HOVER_COLOR);
+        if let [from, to] = points[..] {
+            painter.line_segment([from, to], stroke);
+        }
+        for at in points {
+            painter.circle_stroke(at, 5.0, stroke);
+        }
     }
 
     /// Paints the last picture where it belongs in the present view, until the next one is
@@ -92,7 +130,10 @@ impl CanvasPainter<'_> {
         let to_screen = |pixel| screen.point(place(pixel));
         let scale = f64::from(screen.px_per_point);
         // Half the width of the lines, so that the outline shows on wide lines too.
-        let radius_px = self.settings.line_rule().radius_px(None, view.px_per_m());
+        let radius_px = self
+            .settings
+            .line_rule(scale)
+            .radius_px(None, view.px_per_m());
         let stroke = |color| Stroke::new(MIN_OUTLINE_WIDTH.max((radius_px / scale) as f32), color);
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
         paint_outline(painter, &overlay.selection, selected, to_screen);
@@ -123,7 +164,7 @@ impl CanvasPainter<'_> {
                 let context = ToolContext {
                     view: self.view,
                     document: self.files.document(),
-                    line_rule: self.settings.line_rule(),
+                    line_rule: self.settings.line_rule(f64::from(self.screen.px_per_point)),
                     picks_symbols: false,
                 };
                 let next = self.pointer_px.map(|at| self.view.world_from_pixel(at));
@@ -139,19 +180,17 @@ impl CanvasPainter<'_> {
         }
     }
 
-    /// Paints the errors of all files, or a hint if no file is open.
+    /// Paints the errors of all files.
     fn paint_messages(&self, painter: &Painter) {
         let layers = self.files.layers();
         let errors = layers.iter().filter_map(|layer| {
             let error = layer.error()?;
             Some(format!("{}: {error}", layer.name()))
         });
-        let hint = "Drop a layout file here, or open one with Ctrl+O";
-        let hint = layers.is_empty().then(|| hint.to_owned());
         let width = (self.screen.rect.width() - 32.0).max(50.0);
         let mut at: Pos2 = self.screen.rect.center_top() + Vec2::new(0.0, 40.0);
         let color = color32(self.settings.decoration_style(1.0).ink);
-        for text in hint.into_iter().chain(errors) {
+        for text in errors {
             let font = FontId::proportional(MESSAGE_POINTS);
             let galley = painter.layout(text, font, color, width);
             let corner = at - Vec2::new(galley.size().x / 2.0, 0.0);

@@ -15,9 +15,9 @@ pub(crate) const MENUS: [Menu; 6] = [
         name: "File",
         groups: &[
             &[Open, OpenRecent, Reload],
-            &[Save, SaveAs],
+            &[Save, SaveAs, SaveProject],
             &[ExportPng, ExportSvg, CopyPicture],
-            &[FloorPlan],
+            &[FloorPlan, PlaceFloorPlan],
             &[Close, Quit],
         ],
     },
@@ -29,6 +29,7 @@ pub(crate) const MENUS: [Menu; 6] = [
             &[Duplicate, Delete],
             &[RotateLeft, FlipHorizontal, FlipVertical],
             &[Refine],
+            &[Settings],
         ],
     },
     Menu {
@@ -57,9 +58,44 @@ pub(crate) const MENUS: [Menu; 6] = [
     },
     Menu {
         name: "Help",
-        groups: &[&[Shortcuts]],
+        groups: &[&[Shortcuts, ExampleSite], &[About]],
     },
 ];
+
+/// The element that a context menu was opened on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum ContextPlace {
+    Path,
+    Node,
+    Station,
+    /// A path that is being drawn or measured.
+    Draft,
+    #[default]
+    Empty,
+}
+
+impl ContextPlace {
+    /// The commands of the context menu, in groups.
+    pub(crate) fn groups(self) -> &'static [&'static [Command]] {
+        match self {
+            Self::Path => &[
+                &[ZoomToSelection],
+                &[Duplicate, Delete],
+                &[RotateLeft, FlipHorizontal, FlipVertical, Refine],
+                &[Hide, Isolate, ShowAll],
+            ],
+            Self::Node | Self::Station => &[&[ZoomToSelection], &[Duplicate, Delete]],
+            Self::Draft => &[&[FinishPath, Undo], &[Cancel]],
+            Self::Empty => &[
+                &[ToolSelect, ToolPoints, ToolDraw, ToolMeasure],
+                &[Undo, Redo],
+                &[SelectAll, Deselect],
+                &[ZoomToAll, Back],
+                &[Grid, Arrows, Symbols, Labels, ShowAll],
+            ],
+        }
+    }
+}
 
 #[cfg(test)]
 mod tests {

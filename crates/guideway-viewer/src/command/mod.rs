@@ -3,7 +3,7 @@
 mod menus;
 mod shortcuts;
 
-pub(crate) use menus::{MENUS, Menu};
+pub(crate) use menus::{ContextPlace, MENUS, Menu};
 #[cfg(test)]
 pub(crate) use shortcuts::SHORTCUTS;
 pub(crate) use shortcuts::{command_of, shortcuts_of};
@@ -13,10 +13,13 @@ pub(crate) use shortcuts::{command_of, shortcuts_of};
 pub(crate) enum Command {
     Open,
     OpenRecent,
+    ExampleSite,
     Reload,
     Save,
     SaveAs,
+    SaveProject,
     FloorPlan,
+    PlaceFloorPlan,
     ExportPng,
     ExportSvg,
     CopyPicture,
@@ -60,20 +63,30 @@ pub(crate) enum Command {
     ToolMeasure,
     Find,
     Shortcuts,
+    Settings,
+    About,
     Cancel,
     FinishPath,
 }
 
 impl Command {
+    /// Its name outside of menus, without the points that announce a dialog.
+    pub(crate) fn name(self) -> String {
+        self.label().trim_end_matches('…').to_owned()
+    }
+
     /// The text of its menu entry.
     pub(crate) fn label(self) -> &'static str {
         match self {
             Self::Open => "Open…",
             Self::OpenRecent => "Open recent…",
+            Self::ExampleSite => "Example site",
             Self::Reload => "Reload",
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
             Self::FloorPlan => "Floor plan…",
+            Self::SaveProject => "Save project…",
+            Self::PlaceFloorPlan => "Place floor plan…",
             Self::ExportPng => "Export PNG…",
             Self::ExportSvg => "Export SVG…",
             Self::CopyPicture => "Copy picture",
@@ -117,6 +130,8 @@ impl Command {
             Self::ToolMeasure => "Measure",
             Self::Find => "Find by name or query",
             Self::Shortcuts => "Keyboard shortcuts",
+            Self::Settings => "Settings…",
+            Self::About => "About Guideway",
             Self::Cancel => "Cancel",
             Self::FinishPath => "Finish path",
         }

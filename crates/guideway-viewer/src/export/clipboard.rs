@@ -29,16 +29,16 @@ impl Clipboard {
         self.task = Some(BackgroundTask::start(repaint, render));
     }
 
-    /// Copies a finished picture. Returns a notice for the user.
-    pub(crate) fn poll(&mut self, ctx: &Context) -> Option<String> {
+    /// Copies a finished picture. Returns news for the user.
+    ///
+    /// # Errors
+    /// When the picture cannot be rendered.
+    pub(crate) fn poll(&mut self, ctx: &Context) -> Option<Result<String, UserError>> {
         let result = self.task.as_ref().and_then(BackgroundTask::result)?;
         self.task = None;
-        Some(match result.flatten() {
-            Ok(image) => {
-                ctx.copy_image(image);
-                "The picture was copied to the clipboard".to_owned()
-            }
-            Err(error) => error.to_string(),
-        })
+        Some(result.flatten().map(|image| {
+            ctx.copy_image(image);
+            "The picture was copied to the clipboard".to_owned()
+        }))
     }
 }

@@ -36,11 +36,13 @@ impl PictureContent<'_> {
             scene: top,
             others: scenes,
             view: self.view,
+            px_per_point: self.px_per_point,
             style: Style {
                 background: settings.background(),
-                ..settings.style()
+                ..settings.style(self.px_per_point)
             },
             floor_plan: self.floor_plan.visible().cloned(),
+            floor_plan_opacity: f64::from(self.floor_plan.opacity),
             swept: document.and_then(|document| self.swept_areas.areas(document)),
             grid: settings.grid(&self.view, self.px_per_point),
             marks: self.marks(),
@@ -92,6 +94,11 @@ fn scaled_to(picture: PictureRequest, width_px: u32) -> Result<PictureRequest, R
     let size = FrameSize::new(width_px, height_px as u32)?;
     Ok(PictureRequest {
         view: View::new(size, view.center_m(), view.px_per_m() * factor)?,
+        px_per_point: picture.px_per_point * factor,
+        style: Style {
+            line_rule: picture.style.line_rule.scaled(factor),
+            ..picture.style
+        },
         grid: picture.grid.scaled(factor),
         marks: picture.marks.scaled(factor),
         ..picture
@@ -115,8 +122,10 @@ mod tests {
             scene: Arc::new(scene),
             others: Vec::new(),
             view: View::new(size, Point::new(5.0, 6.0), 20.0).unwrap(),
+            px_per_point: 1.0,
             style: Style::default(),
             floor_plan: None,
+            floor_plan_opacity: 1.0,
             swept: None,
             grid,
             marks: DrawList::default(),
@@ -132,6 +141,20 @@ mod tests {
         assert_eq!(large.view.world_bounds(), small.view.world_bounds());
         let corner = large.grid.fills[0].polygons[0][2];
         assert_eq!(corner, Point::new(300.0, 400.0));
+        let radius_px = |picture: &PictureRequest| {
+            let rule = picture.style.line_rule;
+            rule.radius_px(None, picture.view.px_per_m())
+        };
+        for px_per_m in [1.0, 20.0, 500.0] {
+            let view = View::new(small.view.size(), Point::new(5.0, 6.0), px_per_m).unwrap();
+            let small = PictureRequest {
+                view,
+                ..small.clone()
+            };
+            let large = scaled_to(small.clone(), 1_600).unwrap();
+            assert_eq!(radius_px(&large), 4.0 * radius_px(&small), "lines too");
+            assert_eq!(large.px_per_point, 4.0);
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use guideway_layout::UserError;
 
 use crate::background::{BackgroundTask, RepaintHandle};
-use crate::services::Job;
+use crate::services::{Job, LostPart};
 
 /// The file being written, if any.
 #[derive(Default)]
@@ -15,18 +15,25 @@ pub(crate) struct FileWriter {
 }
 
 struct Write {
-    /// Returns a sentence about the written file.
-    task: BackgroundTask<Result<String, UserError>>,
+    task: BackgroundTask<Result<WriteOutcome, UserError>>,
     /// Path of the file, if it is a layout.
     layout_path: Option<PathBuf>,
     /// Progress, if the writer reports it.
     job: Option<Arc<Job>>,
 }
 
+/// The outcome of a write without an error.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum WriteOutcome {
+    /// The file is written; a sentence for the user.
+    Written(String),
+    /// Nothing is written: the user has not accepted these losses.
+    TooLossy(Vec<LostPart>),
+}
+
 /// The end of a write.
 pub(crate) struct Written {
-    /// A sentence about the written file.
-    pub(crate) result: Result<String, UserError>,
+    pub(crate) result: Result<WriteOutcome, UserError>,
     /// Path of the file, if it is a layout.
     pub(crate) layout_path: Option<PathBuf>,
 }
@@ -37,14 +44,14 @@ impl FileWriter {
         self.current.is_some()
     }
 
-    /// Starts to write; `write` returns a sentence for the user. Requires [`Self::is_busy`] to be
+    /// Starts to write. Requires [`Self::is_busy`] to be
     /// false: a write in progress would lose its result.
     pub(crate) fn start(
         &mut self,
         layout_path: Option<PathBuf>,
         job: Option<Arc<Job>>,
         repaint: &RepaintHandle,
-        write: impl FnOnce() -> Result<String, UserError> + Send + 'static,
+        write: impl FnOnce() -> Result<WriteOutcome, UserError> + Send + 'static,
     ) {
         self.current = Some(Write {
             task: BackgroundTask::start(repaint, write),
@@ -84,7 +91,7 @@ mod tests {
         let repaint: RepaintHandle = Arc::new(|| {});
         writer.start(Some("site.arrow".into()), None, &repaint, move || {
             let _ = rest.recv();
-            Ok("saved".into())
+            Ok(WriteOutcome::Written("saved".into()))
         });
         assert!(writer.poll().is_none() && writer.is_busy());
         drop(finish);
@@ -92,7 +99,8 @@ mod tests {
             thread::sleep(Duration::from_millis(1));
             writer.poll()
         });
-        assert_eq!(written.unwrap().result, Ok("saved".into()));
+        let outcome = WriteOutcome::Written("saved".into());
+        assert_eq!(written.unwrap().result, Ok(outcome));
         assert!(!writer.is_busy());
     }
 }

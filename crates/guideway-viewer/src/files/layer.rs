@@ -11,8 +11,8 @@ use guideway_scene::SceneOptions;
 
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
-use super::loader::{Loaded, Loader};
-use super::save_state::SaveState;
+use super::loader::{Loaded, Loader, MakeLayout, Source};
+use super::save_state::{SaveState, changed_on_disk};
 use crate::background::RepaintHandle;
 use crate::editing::{
     BackgroundTasks, DocumentSlot, EDIT_WAIT, EditReturn, EditTask, Journal, TaskEvent, UnsavedWork,
@@ -35,6 +35,8 @@ pub(crate) struct Layer {
     owes_scene: bool,
     /// True if unsaved work is recorded beside the file.
     keeps_journal: bool,
+    /// Makes the layout again until it has a file; `path` is the suggested name then.
+    made_by: Option<MakeLayout>,
 }
 
 impl Drop for Layer {
@@ -48,9 +50,11 @@ impl Drop for Layer {
 }
 
 impl Layer {
-    /// Opens a file: starts to read it, and starts its render thread.
+    /// Opens a file, or a layout that has none yet and would be saved as `path`: starts to read or
+    /// make it, and starts its render thread.
     pub(crate) fn open(
         path: PathBuf,
+        made_by: Option<MakeLayout>,
         method: &str,
         options: SceneOptions,
         context: &LayerContext,
@@ -66,6 +70,7 @@ impl Layer {
             loader: None,
             owes_scene: false,
             keeps_journal: context.services.keeps_journals(),
+            made_by,
         };
         layer.load(None, options, context);
         layer
@@ -84,6 +89,11 @@ impl Layer {
     /// The document, unless it is not loaded or an edit has it.
     pub(crate) fn document(&self) -> Option<&Document> {
         self.slot.document()
+    }
+
+    /// Returns `true` if the layout has no file yet.
+    pub(crate) fn is_untitled(&self) -> bool {
+        self.made_by.is_some()
     }
 
     /// Why there is no layout or no picture.
@@ -174,9 +184,13 @@ impl Layer {
     ) {
         self.tasks.set_options(options.clone());
         let LayerContext { services, repaint } = context.clone();
-        let path = self.path.clone();
-        self.save.begin_load(services.file_stamp(&path));
-        self.loader = Some(Loader::start(services, path, unsaved, options, repaint));
+        let source = match self.made_by {
+            Some(make) => Source::Made(make),
+            None => Source::File(self.path.clone()),
+        };
+        let stamp = services.file_stamp(&self.path);
+        self.save.begin_load(stamp.filter(|_| !self.is_untitled()));
+        self.loader = Some(Loader::start(services, source, unsaved, options, repaint));
     }
 
     fn end_load(&mut self) {
@@ -199,7 +213,8 @@ impl Layer {
             self.path.clone_from(path);
         }
         let state = context.services.file_stamp(&self.path);
-        let complete = self.save.end(saved_as, state);
+        let is_new = saved_as.is_some() && self.made_by.take().is_some();
+        let complete = self.save.end(saved_as, state, is_new && self.keeps_journal);
         self.run(complete, EDIT_WAIT, &context.repaint)
     }
 
@@ -371,7 +386,7 @@ impl Layer {
         let journal = self.slot.journal_mut();
         // The present one has a lock that would keep the next one out.
         *journal = Journal::default();
-        if self.keeps_journal {
+        if self.keeps_journal && self.made_by.is_none() {
             *journal = Journal::open(&self.path);
         }
         journal.take_notice()
@@ -381,9 +396,4 @@ impl Layer {
     pub(crate) fn is_at(&self, path: &Path) -> bool {
         self.path == path
     }
-}
-
-/// The notice about a file that both another program and the user changed.
-pub(super) fn changed_on_disk(name: &str) -> String {
-    format!("{name} has changed on disk. File > Reload reads it and discards your changes")
 }

@@ -1,14 +1,14 @@
-//! Reads one file on its own thread: scene, then document, then findings.
+//! Reads or makes one layout on its own thread: scene, then document, then findings.
 
 use std::convert::Infallible;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender, TryIter};
 use std::thread;
 use std::time::Duration;
 
 use guideway_document::{Document, ReplayProgress};
-use guideway_layout::{CheckOptions, UserError};
+use guideway_layout::{CheckOptions, Layout, UserError};
 use guideway_scene::{Scene, SceneOptions};
 
 use crate::background::RepaintHandle;
@@ -18,6 +18,17 @@ use crate::services::{AppServices, Job, WINDOW_ERROR};
 /// Longest time that the loader waits for the first picture before it builds the document: until
 /// then the render method gets all cores.
 const FIRST_PICTURE_WAIT: Duration = Duration::from_secs(1);
+
+/// Makes a layout that is in no file yet.
+pub(crate) type MakeLayout = fn(&dyn AppServices) -> Result<Layout, UserError>;
+
+/// The origin of a layout.
+#[derive(Clone, Debug)]
+pub(crate) enum Source {
+    File(PathBuf),
+    /// No file yet.
+    Made(MakeLayout),
+}
 
 /// The thread that reads a file.
 pub(crate) struct Loader {
@@ -45,7 +56,7 @@ impl Loader {
     /// the old picture stays until the work is replayed.
     pub(crate) fn start(
         services: Arc<dyn AppServices>,
-        path: PathBuf,
+        source: Source,
         unsaved: Option<UnsavedWork>,
         options: SceneOptions,
         repaint: RepaintHandle,
@@ -62,8 +73,9 @@ impl Loader {
                 let _ = sender.send(piece);
                 repaint();
             };
-            let path = unsaved.as_ref().map_or(&path, |work| &work.base);
-            let scene = match read(&*services, path, &options, &watched) {
+            let base = unsaved.as_ref().map(|work| Source::File(work.base.clone()));
+            let source = base.unwrap_or(source);
+            let scene = match read(&*services, &source, &options, &watched) {
                 Ok(scene) => scene,
                 Err(error) => return send(Loaded::Failed(error)),
             };
@@ -129,11 +141,14 @@ impl Drop for Loader {
 
 fn read(
     services: &dyn AppServices,
-    path: &Path,
+    source: &Source,
     options: &SceneOptions,
     job: &Job,
 ) -> Result<Scene, UserError> {
-    let layout = Arc::new(services.read_layout(path, job)?);
+    let layout = Arc::new(match source {
+        Source::File(path) => services.read_layout(path, job)?,
+        Source::Made(make) => make(services)?,
+    });
     // The color column may exist in another open file only.
     let scene = Scene::new(Arc::clone(&layout), options);
     Ok(scene.or_else(|_| Scene::new(layout, &without_column(options)))?)

@@ -19,8 +19,9 @@ mod recent_files;
 mod save_state;
 mod watcher;
 
-pub(crate) use file_writer::FileWriter;
+pub(crate) use file_writer::{FileWriter, WriteOutcome, Written};
 pub(crate) use layer::Layer;
 pub(crate) use layer_context::LayerContext;
 pub(crate) use layer_event::LayerEvent;
+pub(crate) use loader::MakeLayout;
 pub(crate) use open_files::OpenFiles;

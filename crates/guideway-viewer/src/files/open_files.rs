@@ -7,10 +7,12 @@ use guideway_document::Document;
 use guideway_scene::SceneOptions;
 use guideway_spline::Bounds;
 
-use super::layer::{Layer, changed_on_disk};
+use super::layer::Layer;
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
+use super::loader::MakeLayout;
 use super::recent_files::RecentFiles;
+use super::save_state::changed_on_disk;
 use super::watcher::Watcher;
 
 /// The open files from the bottom; the active one is drawn on top and edited.
@@ -107,11 +109,32 @@ impl OpenFiles {
 
     /// Opens a file, or activates it if it is open.
     pub(crate) fn open(&mut self, path: PathBuf, method: &str, options: SceneOptions) {
-        if let Some(index) = self.index_of(&path) {
+        let is_open = |layer: &Layer| layer.is_at(&path) && !layer.is_untitled();
+        if let Some(index) = self.layers.iter().position(is_open) {
             self.active = index;
             return;
         }
-        let layer = Layer::open(path, method, options, &self.context);
+        self.push(Layer::open(path, None, method, options, &self.context));
+    }
+
+    /// Opens a layout that has no file yet. `stem` and `extension` become the suggested name, with
+    /// a number between them where an open file has that name.
+    pub(crate) fn open_untitled(
+        &mut self,
+        (stem, extension): (&str, &str),
+        make: MakeLayout,
+        method: &str,
+        options: SceneOptions,
+    ) {
+        let numbered = (2..).map(|number| PathBuf::from(format!("{stem}-{number}.{extension}")));
+        let mut names =
+            std::iter::once(PathBuf::from(format!("{stem}.{extension}"))).chain(numbered);
+        let path = names.find(|name| self.index_of(name).is_none());
+        let (path, made_by) = (path.unwrap_or_default(), Some(make));
+        self.push(Layer::open(path, made_by, method, options, &self.context));
+    }
+
+    fn push(&mut self, layer: Layer) {
         self.layers.push(layer);
         self.active = self.layers.len() - 1;
         self.is_watch_outdated = true;
@@ -179,12 +202,15 @@ impl OpenFiles {
     /// Reloads files that other programs changed. Returns notices for the user.
     pub(crate) fn poll_watcher(&mut self, options: &SceneOptions) -> Vec<String> {
         if std::mem::take(&mut self.is_watch_outdated) {
-            let paths = self.layers.iter().map(|layer| layer.path().to_owned());
+            let on_disk = self.layers.iter().filter(|layer| !layer.is_untitled());
+            let paths = on_disk.map(|layer| layer.path().to_owned());
             self.watcher.set_files(paths.collect());
         }
         let mut notices = Vec::new();
         for (path, state) in self.watcher.changed().collect::<Vec<_>>() {
-            let is_foreign = |l: &Layer| l.is_at(&path) && l.save.is_changed_by_others(state);
+            let is_foreign = |l: &Layer| {
+                l.is_at(&path) && !l.is_untitled() && l.save.is_changed_by_others(state)
+            };
             let Some(index) = self.layers.iter().position(is_foreign) else {
                 continue;
             };
@@ -220,7 +246,15 @@ impl OpenFiles {
 
     /// Adds a file to the recent files. Returns a notice if the list cannot be written.
     pub(crate) fn remember(&mut self, index: usize) -> Option<String> {
-        let path: &Path = self.layers[index].path();
+        if self.layers[index].is_untitled() {
+            return None;
+        }
+        let path = self.layers[index].path().to_owned();
+        self.remember_path(&path)
+    }
+
+    /// Adds a file to the recent files, as [`Self::remember`] does.
+    pub(crate) fn remember_path(&mut self, path: &Path) -> Option<String> {
         let error = self.recent.add(path).err()?;
         Some(format!("cannot write the list of recent files: {error}"))
     }

@@ -4,6 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::preferences::write_state;
+
 /// Length of the list: one digit key per file.
 const MAX_FILES: usize = 10;
 const FILE_NAME: &str = "recent-files";
@@ -55,11 +57,7 @@ impl RecentFiles {
         self.files.truncate(MAX_FILES);
         let lines = self.files.iter().filter_map(|file| file.to_str());
         let text: String = lines.flat_map(|line| [line, "\n"]).collect();
-        fs::create_dir_all(folder)?;
-        // Written atomically, as several windows may write it at once.
-        let new = folder.join(format!("{FILE_NAME}.{}", std::process::id()));
-        fs::write(&new, text)?;
-        fs::rename(&new, folder.join(FILE_NAME))
+        write_state(folder, FILE_NAME, &text)
     }
 }
 

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use guideway_document::Snapshot;
 
 use super::watcher::Stamp;
-use crate::editing::{DocumentSlot, EditTask};
+use crate::editing::{DocumentSlot, EditTask, Journal};
+use crate::services::LostPart;
 
 /// True if a file is being saved or reloaded, and its state on disk after the last save.
 #[derive(Default)]
@@ -20,6 +21,8 @@ pub(crate) struct SaveState {
     known: Stamp,
     /// State of the file at the start of the load in progress.
     loading: Stamp,
+    /// Losses that the user has accepted, and for which file.
+    accepted: Option<(PathBuf, Vec<LostPart>)>,
 }
 
 impl SaveState {
@@ -30,6 +33,17 @@ impl SaveState {
     /// Returns `true` if this window saved the file since it was read.
     pub(crate) fn is_written(&self) -> bool {
         self.is_written
+    }
+
+    /// Accepts that the file at `path` lacks these parts, in later saves too.
+    pub(crate) fn accept_losses(&mut self, path: PathBuf, losses: Vec<LostPart>) {
+        self.accepted = Some((path, losses));
+    }
+
+    /// The kinds of losses that the user has accepted for the file at `path`.
+    pub(crate) fn accepted_losses(&self, path: &Path) -> Vec<LostPart> {
+        let accepted = self.accepted.as_ref().filter(|(of, _)| of == path);
+        accepted.map_or_else(Vec::new, |(_, losses)| losses.clone())
     }
 
     pub(super) fn drops_changes(&self) -> bool {
@@ -86,14 +100,26 @@ impl SaveState {
         Some((snapshot, notices.collect()))
     }
 
-    /// Ends a save; with a path, the layout was written there, into this state. Returns the edit
-    /// that completes it in the document and its journal.
-    pub(super) fn end(&mut self, saved_as: Option<PathBuf>, state: Stamp) -> EditTask {
+    /// Ends a save; with a path, the layout was written there, into this state, and with
+    /// `opens_journal` has a file from now on. Returns the edit that completes it in the document
+    /// and its journal.
+    pub(super) fn end(
+        &mut self,
+        saved_as: Option<PathBuf>,
+        state: Stamp,
+        opens_journal: bool,
+    ) -> EditTask {
         self.is_saving = false;
         match saved_as {
             Some(path) => {
                 (self.is_written, self.known) = (true, state);
-                EditTask::with_journal(move |_, journal| journal.complete_save(&path))
+                EditTask::with_journal(move |_, journal| {
+                    if !opens_journal {
+                        return journal.complete_save(&path);
+                    }
+                    *journal = Journal::open(&path);
+                    journal.take_notice().map_or(Ok(()), Err)
+                })
             }
             None => EditTask::with_journal(|document, journal| {
                 if let Some(before) = journal.abort_save() {
@@ -103,6 +129,11 @@ impl SaveState {
             }),
         }
     }
+}
+
+/// The notice about a file that both another program and the user changed.
+pub(super) fn changed_on_disk(name: &str) -> String {
+    format!("{name} has changed on disk. File > Reload reads it and discards your changes")
 }
 
 #[cfg(test)]
@@ -128,7 +159,7 @@ mod tests {
         assert!(!slot.document().unwrap().is_changed());
         let repaint: RepaintHandle = Arc::new(|| {});
         slot.run(
-            save.end(None, None),
+            save.end(None, None, false),
             Duration::from_secs(60),
             file,
             &repaint,

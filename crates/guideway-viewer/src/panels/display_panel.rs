@@ -5,7 +5,7 @@ use guideway_layout::{Attribute, Layout};
 
 use crate::action::Action;
 use crate::backdrop::SweptAreasLayer;
-use crate::display_settings::DisplaySettings;
+use crate::display_settings::{DisplaySettings, MAX_WIDTH_M, MIN_PX_RANGE};
 use crate::files::OpenFiles;
 
 /// Columns that color every layout, beside its attributes.
@@ -35,9 +35,9 @@ pub(super) fn show(
         });
     ui.checkbox(&mut settings.is_thesis_rule, "Line widths of the thesis");
     ui.add_enabled_ui(!settings.is_thesis_rule, |ui| {
-        let width = Slider::new(&mut settings.width_m, 0.0..=2.0).suffix(" m");
+        let width = Slider::new(&mut settings.width_m, 0.0..=MAX_WIDTH_M).suffix(" m");
         ui.add(width.text("Width"));
-        let min_width = Slider::new(&mut settings.min_px, 0.5..=8.0).suffix(" px");
+        let min_width = Slider::new(&mut settings.min_px, MIN_PX_RANGE).suffix(" pt");
         ui.add(min_width.text("Minimum"));
     });
     ui.checkbox(&mut settings.is_density, "Density");
@@ -45,7 +45,10 @@ pub(super) fn show(
     ui.checkbox(&mut settings.has_symbols, "Nodes and stations");
     ui.checkbox(&mut settings.has_labels, "Labels");
     ui.checkbox(&mut settings.has_grid, "Grid");
-    ui.checkbox(&mut settings.is_dark, "Dark");
+    let mut is_dark = settings.is_dark;
+    if ui.checkbox(&mut is_dark, "Dark").clicked() {
+        settings.set_dark(is_dark);
+    }
     ui.checkbox(&mut swept_areas.is_visible, "Swept areas");
     let label = ui.label("Vehicle: LENGTHxWIDTH or LENGTHxWIDTH,REAR in meters, or `file`");
     ui.add(TextEdit::singleline(&mut swept_areas.vehicle_text))
@@ -53,7 +56,7 @@ pub(super) fn show(
     if let Some(error) = swept_areas.error() {
         ui.colored_label(ui.visuals().error_fg_color, error);
     }
-    if before.is_dark != settings.is_dark {
+    if before.theme != settings.theme {
         actions.push(Action::ApplyTheme);
     }
     if before.needs_other_scene(settings) {

@@ -1,15 +1,15 @@
-//! The menu bar, the tool buttons, and the progress of loads and exports.
+//! The menu bar, the toolbar beside it, and the progress of loads and exports.
 
 use std::time::Duration;
 
 use eframe::egui::{self, Button, ProgressBar, Ui};
 
+use super::command_state::CommandState;
+use super::toolbar;
 use crate::action::Action;
 use crate::command::{Command, MENUS, Menu, shortcuts_of};
-use crate::display_settings::DisplaySettings;
-use crate::files::{FileWriter, OpenFiles};
+use crate::files::FileWriter;
 use crate::services::Job;
-use crate::tools::Tool;
 
 /// Interval of progress updates. On a software renderer a frame takes a tenth of a second of the
 /// processor, which the load itself needs.
@@ -17,12 +17,8 @@ const PROGRESS_INTERVAL: Duration = Duration::from_millis(500);
 
 /// The content of the menu bar.
 pub(crate) struct MenuBar<'a> {
-    pub(crate) files: &'a OpenFiles,
+    pub(crate) commands: CommandState<'a>,
     pub(crate) writer: &'a FileWriter,
-    pub(crate) settings: &'a DisplaySettings,
-    /// True if swept areas are shown.
-    pub(crate) has_swept_areas: bool,
-    pub(crate) tool: Tool,
 }
 
 impl MenuBar<'_> {
@@ -34,17 +30,8 @@ impl MenuBar<'_> {
                 ui.menu_button(menu.name, |ui| actions.extend(self.menu(menu, ui)));
             }
             ui.separator();
-            for (tool, name) in [
-                (Tool::Select, "Select"),
-                (Tool::Points, "Points"),
-                (Tool::Draw, "Draw"),
-                (Tool::Measure, "Measure"),
-            ] {
-                if ui.selectable_label(self.tool == tool, name).clicked() {
-                    actions.push(Action::SelectTool(tool));
-                }
-            }
-            for layer in self.files.layers() {
+            actions.extend(toolbar::show(ui, &self.commands));
+            for layer in self.commands.files.layers() {
                 if let Some(job) = layer.load_job() {
                     let verb = match layer.is_recovering() {
                         true => "recovering",
@@ -61,113 +48,33 @@ impl MenuBar<'_> {
     }
 
     fn menu(&self, menu: &Menu, ui: &mut Ui) -> Option<Action> {
-        let mut chosen = None;
-        for (number, group) in menu.groups.iter().enumerate() {
-            if number > 0 {
-                ui.separator();
-            }
-            for &command in *group {
-                let mut button = Button::new(self.label(command)).selected(self.is_on(command));
-                if let Some(shortcut) = shortcuts_of(command).next() {
-                    button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
-                }
-                if ui.add_enabled(self.is_possible(command), button).clicked() {
-                    chosen = Some(Action::Command(command));
-                }
-            }
-        }
-        chosen
-    }
-
-    /// The text of a command; undo and redo name their step.
-    fn label(&self, command: Command) -> String {
-        let document = self.files.document();
-        let (undo, redo) = document.map_or((None, None), |document| document.undo_redo_names());
-        let step = match command {
-            Command::Undo => undo,
-            Command::Redo => redo,
-            _ => None,
-        };
-        let label = command.label();
-        step.map_or_else(|| label.to_owned(), |step| format!("{label}: {step}"))
-    }
-
-    /// Returns `true` if a command has something to act on.
-    fn is_possible(&self, command: Command) -> bool {
-        let Some(layer) = self.files.active() else {
-            return !needs_file(command);
-        };
-        // While an edit has the document, what comes after it is not known.
-        let Some(document) = layer.document() else {
-            return true;
-        };
-        let (undo, redo) = document.undo_redo_names();
-        match command {
-            Command::Undo => undo.is_some(),
-            Command::Redo => redo.is_some(),
-            Command::ShowAll => document.scene().hidden_count() > 0,
-            Command::NextFile => self.files.layers().len() > 1,
-            Command::FinishPath => self.tool == Tool::Draw,
-            command if needs_selection(command) => !document.selection().is_empty(),
-            _ => true,
-        }
-    }
-
-    /// Returns `true` if a command is a switch that is on.
-    fn is_on(&self, command: Command) -> bool {
-        match command {
-            Command::Arrows => self.settings.has_arrows,
-            Command::Symbols => self.settings.has_symbols,
-            Command::Labels => self.settings.has_labels,
-            Command::Grid => self.settings.has_grid,
-            Command::Density => self.settings.is_density,
-            Command::ThesisRule => self.settings.is_thesis_rule,
-            Command::Dark => self.settings.is_dark,
-            Command::SweptAreas => self.has_swept_areas,
-            Command::ToolSelect => self.tool == Tool::Select,
-            Command::ToolPoints => self.tool == Tool::Points,
-            Command::ToolDraw => self.tool == Tool::Draw,
-            Command::ToolMeasure => self.tool == Tool::Measure,
-            _ => false,
-        }
+        command_list(ui, menu.groups, &self.commands)
     }
 }
 
-fn needs_selection(command: Command) -> bool {
-    matches!(
-        command,
-        Command::Deselect
-            | Command::Delete
-            | Command::Duplicate
-            | Command::RotateLeft
-            | Command::FlipHorizontal
-            | Command::FlipVertical
-            | Command::Refine
-            | Command::ZoomToSelection
-            | Command::Hide
-            | Command::Isolate
-    )
-}
-
-fn needs_file(command: Command) -> bool {
-    needs_selection(command)
-        || matches!(
-            command,
-            Command::Reload
-                | Command::Save
-                | Command::SaveAs
-                | Command::ExportPng
-                | Command::ExportSvg
-                | Command::CopyPicture
-                | Command::Close
-                | Command::Undo
-                | Command::Redo
-                | Command::SelectAll
-                | Command::Find
-                | Command::NextFile
-                | Command::ShowAll
-                | Command::FinishPath
-        )
+/// Shows commands as entries of a menu, with lines between the groups. Returns the chosen one.
+pub(crate) fn command_list(
+    ui: &mut Ui,
+    groups: &[&[Command]],
+    state: &CommandState<'_>,
+) -> Option<Action> {
+    let mut chosen = None;
+    for (number, group) in groups.iter().enumerate() {
+        if number > 0 {
+            ui.separator();
+        }
+        for &command in *group {
+            let mut button = Button::new(state.label(command)).selected(state.is_on(command));
+            if let Some(shortcut) = shortcuts_of(command).next() {
+                button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+            }
+            if ui.add_enabled(state.is_possible(command), button).clicked() {
+                chosen = Some(Action::Command(command));
+                ui.close();
+            }
+        }
+    }
+    chosen
 }
 
 /// A progress bar with a button that cancels the job.

@@ -3,11 +3,13 @@
 //! Panels own the state of their own fields only. They read the other parts and return
 //! [`Action`](crate::action::Action)s.
 
+mod command_state;
 pub(crate) mod dialogs;
 mod display_panel;
 mod files_panel;
 mod find_panel;
 mod findings_panel;
+mod icons;
 mod menu_bar;
 mod path_panel;
 mod properties;
@@ -15,9 +17,13 @@ mod render_panel;
 mod selection_panel;
 mod side_panel;
 mod status_bar;
+mod toolbar;
+mod welcome;
 
+pub(crate) use command_state::CommandState;
 pub(crate) use findings_panel::FindingsPanel;
-pub(crate) use menu_bar::MenuBar;
+pub(crate) use menu_bar::{MenuBar, command_list};
 pub(crate) use properties::PropertiesPanel;
 pub(crate) use side_panel::SidePanel;
 pub(crate) use status_bar::StatusBar;
+pub(crate) use welcome::Welcome;

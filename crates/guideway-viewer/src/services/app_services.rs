@@ -7,7 +7,13 @@ use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, UserError};
 use guideway_scene::{Frame, Method, View};
 
-use super::{FileStamp, Job, PictureRequest};
+use super::{
+    FileFormat, FileQuestion, FileStamp, Job, LostPart, PendingFileAnswer, PictureRequest, Saved,
+    WINDOW_ERROR,
+};
+
+/// Longest project file, in bytes: ten thousand files with names of a hundred letters.
+pub const MAX_PROJECT_BYTES: u64 = 1 << 20;
 
 /// Files, pictures and render methods, as the window calls them. Calls come from several threads.
 pub trait AppServices: Send + Sync {
@@ -17,18 +23,60 @@ pub trait AppServices: Send + Sync {
     /// When the file cannot be read, or the job was cancelled.
     fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError>;
 
+    /// The layout of an example site.
+    ///
+    /// # Errors
+    /// When the program has none.
+    fn example_site(&self) -> Result<Layout, UserError> {
+        Err(UserError::new(
+            WINDOW_ERROR,
+            "this program has no example site",
+            "Open a file",
+        ))
+    }
+
     /// Checks that saving `layout` over the file that it was read from loses nothing of the file.
     ///
     /// # Errors
     /// When the format has no writer, or the file may hold more than a layout, as drawings do.
     fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError>;
 
-    /// Writes a layout file atomically. The extension selects the format; without a known one, the
-    /// format of the source file applies. Returns one sentence per feature that the format lacks.
+    /// Writes a layout file atomically, unless the format lacks parts of the layout and `accepts`
+    /// returns `false` for them. The extension selects the format; without a known one, the format
+    /// of the source file applies.
     ///
     /// # Errors
     /// When the format has no writer, or the file cannot be written.
-    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError>;
+    fn save_layout(
+        &self,
+        layout: &Layout,
+        path: &Path,
+        accepts: &dyn Fn(&[LostPart]) -> bool,
+    ) -> Result<Saved, UserError>;
+
+    /// Reads the text of a project file of at most [`MAX_PROJECT_BYTES`].
+    ///
+    /// # Errors
+    /// When the file cannot be read, is too long, or is no text.
+    fn read_project(&self, path: &Path) -> Result<String, UserError>;
+
+    /// Writes the text of a project file atomically.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    fn write_project(&self, path: &Path, text: &str) -> Result<(), UserError>;
+
+    /// The formats that layouts can be written in.
+    fn layout_formats(&self) -> Vec<FileFormat> {
+        Vec::new()
+    }
+
+    /// Opens the desktop's dialog for a file name, without waiting for the answer. `None` if there
+    /// is no such dialog. Called on the thread of the window.
+    fn ask_for_file(&self, question: &FileQuestion) -> Option<PendingFileAnswer> {
+        let _ = question;
+        None
+    }
 
     /// The state of a file on disk, by which changes of other programs are noticed; `None` without
     /// a file.

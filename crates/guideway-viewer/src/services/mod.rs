@@ -4,13 +4,17 @@
 //! [`AppServices`].
 
 mod app_services;
+mod file_question;
 mod file_stamp;
 mod job;
 mod picture_request;
+mod saved;
 mod window_error;
 
-pub use app_services::{AppServices, LoadStage, MethodChoice};
+pub use app_services::{AppServices, LoadStage, MAX_PROJECT_BYTES, MethodChoice};
+pub use file_question::{FileAnswer, FileFormat, FileQuestion, PendingFileAnswer};
 pub use file_stamp::FileStamp;
 pub use job::Job;
 pub use picture_request::{PictureRequest, SweptAreas};
+pub use saved::{LostPart, Saved};
 pub(crate) use window_error::WINDOW_ERROR;

@@ -16,12 +16,16 @@ pub struct PictureRequest {
     pub others: Vec<Arc<Scene>>,
     /// Center, scale and size of the picture.
     pub view: View,
+    /// Pixels of the picture per point of the screen: the scale of texts.
+    pub px_per_point: f64,
     /// Line widths, shading and background.
     pub style: Style,
     /// Floor plan at the bottom, as returned by [`AppServices::read_floor_plan`].
     ///
     /// [`AppServices::read_floor_plan`]: super::AppServices::read_floor_plan
     pub floor_plan: Option<FloorPlan>,
+    /// Opacity of the floor plan, from 0 to 1.
+    pub floor_plan_opacity: f64,
     /// Swept areas of paths of [`Self::scene`].
     pub swept: Option<SweptAreas>,
     /// The grid, below all paths.

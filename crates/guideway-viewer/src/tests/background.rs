@@ -50,6 +50,7 @@ fn measures_all_movements_without_changing_the_file() {
         names,
         [
             "still",
+            "hover",
             "pan",
             "zoom",
             "drag a hundredth",
@@ -60,7 +61,7 @@ fn measures_all_movements_without_changing_the_file() {
     for movement in &movements {
         assert!(movement.frames_ms.len() == 120 && movement.frames_ms.iter().all(|ms| *ms > 0.0));
         assert!(movement.shown_ms <= movement.settled_ms);
-        let is_still = movement.name == "still";
+        let is_still = ["still", "hover"].contains(&movement.name);
         assert_eq!(
             movement.pictures_ms.is_empty(),
             is_still,

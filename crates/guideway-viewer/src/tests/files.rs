@@ -255,6 +255,7 @@ fn dropped_maps_and_images_become_floor_plans() {
     assert_eq!(drop("map.yaml", map), ("/map.yaml".into(), None, 1));
     assert_eq!(drop("site.json", b"{}"), ("/map.yaml".into(), None, 2));
     let (plan, prompt, files) = drop("hall.pgm", b"P5 1 1 255\n\0");
-    assert_eq!((&*plan, files), ("/map.yaml", 2));
-    assert_eq!(prompt.unwrap(), "/hall.pgm@px-per-m=20,offset=0,0");
+    let placed = "/hall.pgm@px-per-m=20,offset=0,0";
+    assert_eq!((&*plan, prompt, files), (placed, None, 2));
+    assert!(window.app().plan_editor.is_open, "its scale is to be set");
 }

@@ -1,11 +1,15 @@
 //! Tests that drive the whole application by mouse and keys, without a window.
 
 mod background;
+mod chrome;
 mod content;
 mod drag;
+mod file_names;
 mod files;
 mod findings;
+mod floor_plans;
 mod methods;
+mod projects;
 mod properties;
 mod random_input;
 mod random_run;
@@ -15,4 +19,5 @@ pub(crate) mod services;
 mod soak;
 mod test_window;
 mod touch;
+mod welcome;
 mod workflows;

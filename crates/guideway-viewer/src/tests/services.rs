@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, SystemTime};
 
 use guideway_compose::FloorPlan;
@@ -17,7 +17,10 @@ use guideway_scene::{
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Point, Runs};
 
-use crate::services::{AppServices, FileStamp, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
+use crate::services::{
+    AppServices, FileAnswer, FileFormat, FileQuestion, FileStamp, Job, LostPart, MethodChoice,
+    PendingFileAnswer, PictureRequest, Saved, WINDOW_ERROR,
+};
 use guideway_layout::UserError;
 
 /// Files in memory and switches for faults.
@@ -28,6 +31,13 @@ pub(crate) struct TestServices {
     pub(crate) is_full: Mutex<bool>,
     /// True if reading and writing block.
     pub(crate) is_blocked: Mutex<bool>,
+    /// Parts that the format of saved files cannot hold.
+    pub(crate) losses: Mutex<Vec<LostPart>>,
+    /// Answers of the desktop's dialog for file names, the last one first; without any there is no
+    /// such dialog.
+    pub(crate) answers: Mutex<Vec<FileAnswer>>,
+    /// The last question of the desktop's dialog.
+    pub(crate) question: Mutex<Option<FileQuestion>>,
     /// Number of writes of each file.
     pub(crate) writes: Mutex<HashMap<PathBuf, u64>>,
     /// The state folder.
@@ -68,14 +78,12 @@ impl TestServices {
 
     /// Loses the graphics device, as a driver crash does.
     pub(crate) fn lose_device(&self) {
-        let lost = self.is_device_lost.lock();
-        let lost = lost.expect("no test panics while it holds the lock");
+        let lost = locked(&self.is_device_lost);
         lost.store(true, Ordering::Relaxed);
     }
 
     fn device(&self) -> Device {
-        let lost = self.is_device_lost.lock();
-        let mut lost = lost.expect("no test panics while it holds the lock");
+        let mut lost = locked(&self.is_device_lost);
         *lost = Arc::default();
         Device {
             is_lost: Arc::clone(&lost),
@@ -83,11 +91,7 @@ impl TestServices {
     }
 
     fn wait_for_disk(&self, job: &Job) -> Result<(), UserError> {
-        while *self
-            .is_blocked
-            .lock()
-            .expect("no test panics while it holds the lock")
-        {
+        while *locked(&self.is_blocked) {
             if job.is_cancelled() {
                 return Err(Self::error("cancelled"));
             }
@@ -98,20 +102,14 @@ impl TestServices {
 
     /// Replaces a file, as another program does.
     pub(crate) fn overwrite(&self, path: &str, layout: Layout) {
-        let mut files = self
-            .files
-            .lock()
-            .expect("no test panics while it holds the lock");
+        let mut files = locked(&self.files);
         files.insert(path.into(), layout);
         drop(files);
         self.note_write(Path::new(path));
     }
 
     fn note_write(&self, path: &Path) {
-        let mut writes = self
-            .writes
-            .lock()
-            .expect("no test panics while it holds the lock");
+        let mut writes = locked(&self.writes);
         *writes.entry(path.to_owned()).or_default() += 1;
     }
 
@@ -122,6 +120,13 @@ impl TestServices {
             remedy: "Try another one".into(),
         }
     }
+}
+
+/// The content of a lock.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex
+        .lock()
+        .expect("no test panics while it holds the lock")
 }
 
 /// Parallel paths of 10 m along x, 2 m apart, each between its own two nodes.
@@ -167,14 +172,38 @@ impl AppServices for TestServices {
     fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
         job.advance(1, 2);
         self.wait_for_disk(job)?;
-        let files = self
-            .files
-            .lock()
-            .expect("no test panics while it holds the lock");
+        let files = locked(&self.files);
         files
             .get(path)
             .cloned()
             .ok_or_else(|| Self::error("no such file"))
+    }
+
+    fn example_site(&self) -> Result<Layout, UserError> {
+        Ok(lanes(6))
+    }
+
+    fn read_project(&self, path: &Path) -> Result<String, UserError> {
+        std::fs::read_to_string(path).map_err(|error| Self::error(&error.to_string()))
+    }
+
+    fn write_project(&self, path: &Path, text: &str) -> Result<(), UserError> {
+        std::fs::write(path, text).map_err(|error| Self::error(&error.to_string()))
+    }
+
+    fn layout_formats(&self) -> Vec<FileFormat> {
+        let format = |name: &str, extension: &str| FileFormat {
+            name: name.into(),
+            extensions: vec![extension.into()],
+        };
+        vec![format("LIF", "lif.json"), format("Arrow", "arrow")]
+    }
+
+    fn ask_for_file(&self, question: &FileQuestion) -> Option<PendingFileAnswer> {
+        let mut answers = locked(&self.answers);
+        let answer = answers.pop()?;
+        *locked(&self.question) = Some(question.clone());
+        Some(Box::new(move || answer))
     }
 
     fn check_save_in_place(&self, _: &Layout, file: &Path) -> Result<(), UserError> {
@@ -185,37 +214,33 @@ impl AppServices for TestServices {
     }
 
     fn file_stamp(&self, path: &Path) -> Option<FileStamp> {
-        let writes = self
-            .writes
-            .lock()
-            .expect("no test panics while it holds the lock");
-        let files = self
-            .files
-            .lock()
-            .expect("no test panics while it holds the lock");
+        let writes = locked(&self.writes);
+        let files = locked(&self.files);
         files.contains_key(path).then(|| FileStamp {
             modified: SystemTime::UNIX_EPOCH,
             bytes: writes.get(path).copied().unwrap_or(0),
         })
     }
 
-    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
+    fn save_layout(
+        &self,
+        layout: &Layout,
+        path: &Path,
+        accepts: &dyn Fn(&[LostPart]) -> bool,
+    ) -> Result<Saved, UserError> {
         self.wait_for_disk(&Job::default())?;
-        if *self
-            .is_full
-            .lock()
-            .expect("no test panics while it holds the lock")
-        {
+        if *locked(&self.is_full) {
             return Err(Self::error("the disk is full"));
         }
-        let mut files = self
-            .files
-            .lock()
-            .expect("no test panics while it holds the lock");
+        let losses = locked(&self.losses).clone();
+        if !losses.is_empty() && !accepts(&losses) {
+            return Ok(Saved::TooLossy(losses));
+        }
+        let mut files = locked(&self.files);
         files.insert(path.to_owned(), layout.clone());
         drop(files);
         self.note_write(path);
-        Ok(vec!["the format is a test".into()])
+        Ok(Saved::Written(losses))
     }
 
     fn export_png(
@@ -230,10 +255,7 @@ impl AppServices for TestServices {
             job.advance(row.into(), height.into());
             self.wait_for_disk(job)?;
         }
-        let mut pictures = self
-            .pictures
-            .lock()
-            .expect("no test panics while it holds the lock");
+        let mut pictures = locked(&self.pictures);
         pictures.push((path.to_owned(), export.clone()));
         Ok(())
     }
@@ -248,7 +270,7 @@ impl AppServices for TestServices {
 
     fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
         match plan {
-            "hall.png@px-per-m=20" => Ok(hall()),
+            text if text.contains("hall.png@px-per-m=") => Ok(hall()),
             _ => Err(Self::error("not a floor plan")),
         }
     }
@@ -260,19 +282,13 @@ impl AppServices for TestServices {
         _vehicle: EnvelopeSource,
         view: &View,
     ) -> Result<Frame, UserError> {
-        let mut swept = self
-            .swept
-            .lock()
-            .expect("no test panics while it holds the lock");
+        let mut swept = locked(&self.swept);
         *swept = rows.to_vec();
         Ok(Frame::new(view.size()))
     }
 
     fn state_folder(&self) -> Option<PathBuf> {
-        let state = self.state.lock();
-        state
-            .expect("no test panics while it holds the lock")
-            .clone()
+        locked(&self.state).clone()
     }
 
     fn methods(&self) -> Vec<MethodChoice> {

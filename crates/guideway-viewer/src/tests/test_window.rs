@@ -52,7 +52,7 @@ impl TestWindow {
                     if let Some((services, options)) = start.take() {
                         let window = ui.ctx().clone();
                         let repaint = Arc::new(move || window.request_repaint());
-                        let mut new = App::new(repaint, services, options);
+                        let mut new = App::launch(repaint, services, options);
                         // On a slow computer too, an edit is complete after its key press.
                         new.edit_wait = Duration::from_secs(60);
                         *app = Some(new);

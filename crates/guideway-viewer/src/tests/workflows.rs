@@ -44,7 +44,7 @@ fn picture_over_the_background_equals_the_render_command() {
     let size = guideway_scene::FrameSize::new(300, 200).unwrap();
     let request = RenderRequest {
         view: guideway_scene::View::fit(size, scene.bounds()).unwrap(),
-        style: settings.style(),
+        style: settings.style(1.0),
     };
     let scene = Arc::new(scene);
     let services = TestServices::with([]);

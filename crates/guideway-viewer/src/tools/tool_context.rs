@@ -4,7 +4,7 @@ use guideway_document::{Document, Element, Hit};
 use guideway_scene::{LineRule, View};
 use guideway_spline::Point;
 
-use super::hit_test::HIT_RADIUS_PX;
+use super::hit_test::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES};
 
 /// View, document and line widths at the time of a pointer event.
 pub(crate) struct ToolContext<'a> {
@@ -24,6 +24,13 @@ impl ToolContext<'_> {
     /// The radius of hit tests in meters.
     pub(super) fn hit_radius_m(&self) -> f64 {
         HIT_RADIUS_PX / self.view.px_per_m()
+    }
+
+    /// The station, node or path under the pointer.
+    pub(crate) fn element_at(&self, at_px: Point<f64>) -> Option<Element> {
+        let path = || self.pick(at_px, MAX_HOVER_CANDIDATES);
+        let symbol = self.pick_symbol(at_px);
+        symbol.or_else(|| path().map(|hit| Element::Path(hit.path)))
     }
 
     /// The station or node under the pointer.

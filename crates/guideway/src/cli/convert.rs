@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use guideway::formats::{Losses, Target, WriteError, WriteProblem};
 use guideway::layout::{Layout, UserError, shown_path};
-use guideway::replace_file;
+use guideway::{NewFile, replace_file};
 use serde_json::{Value, json};
 
 use super::exit::Exit;
@@ -122,15 +122,25 @@ pub(super) fn write(
     layout: &Layout,
     output: &Path,
 ) -> Result<(Losses, u64), UserError> {
+    Ok(replace_file(output, |file| {
+        let losses = write_into(file, target, layout, output)?;
+        Ok::<_, WriteError>((losses, file.bytes()))
+    })?)
+}
+
+/// Writes the layout into a new file for `output`. Returns the losses of the format.
+pub(super) fn write_into(
+    file: &mut NewFile,
+    target: Target,
+    layout: &Layout,
+    output: &Path,
+) -> Result<Losses, WriteError> {
+    file.set_limit(limits::limits().output_bytes);
     let fail = |problem: WriteProblem| WriteError {
         path: output.to_owned(),
         problem,
     };
-    Ok(replace_file(output, |file| {
-        file.set_limit(limits::limits().output_bytes);
-        let losses = target.write(layout, file).map_err(fail)?;
-        Ok::<_, WriteError>((losses, file.bytes()))
-    })?)
+    target.write(layout, file).map_err(fail)
 }
 
 /// Writes the file to standard output.

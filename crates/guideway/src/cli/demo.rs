@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use guideway::compose::{Decorations, Picture, Rendered};
 use guideway::formats::{ReadOptions, read_bytes};
-use guideway::layout::{UserError, shown_path};
+use guideway::layout::{Layout, UserError, shown_path};
 use guideway::scene::{ColorBy, FrameSize, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
 
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     input::check_output(None, &args.output)?;
     check_extension(&args.output)?;
     let progress = out.progress("drawing the example site");
-    let layout = read_bytes(SITE_NAME, SITE, &ReadOptions::default())?;
+    let layout = read_site()?;
     let options = SceneOptions {
         color_by: Some(ColorBy {
             column: "maxSpeed".into(),
@@ -71,6 +71,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         )
     })?;
     Ok(Exit::Clean)
+}
+
+/// The layout of the example site.
+pub(super) fn read_site() -> Result<Layout, UserError> {
+    Ok(read_bytes(SITE_NAME, SITE, &ReadOptions::default())?)
 }
 
 /// The colors of the picture: one line per maximum speed.

@@ -16,6 +16,8 @@ use guideway::layout::{Layout, PathRef};
 use guideway::spline::Point;
 use session::{MAX_TRIES, WindowSession, is_installed, polls};
 
+/// Width of the canvas, in pixels.
+const CANVAS_PX: f64 = 960.0;
 /// Scale of the window when it fits the site.
 const PX_PER_M: f64 = 6.8;
 const SITE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/site.lif.json");
@@ -29,14 +31,17 @@ fn read_png(path: &Path) -> (u32, u32, Vec<u8>) {
     (info.width, info.height, pixels)
 }
 
-/// Asserts that an exported picture of the window equals the output of `guideway render`, except
-/// for the scale bar.
+/// Asserts that an exported picture of the window equals the output of `guideway render` with lines
+/// that are as wide on the page, except for the scale bar.
 fn assert_equals_render(picture: &Path, file: &Path, rendered: &Path) {
     /// Size of the area of the scale bar, from the lower left corner.
     const BAR_PX: (usize, usize) = (700, 240);
     let (width, height, of_window) = read_png(picture);
+    let factor = f64::from(width) / CANVAS_PX;
     let status = Command::new(env!("CARGO_BIN_EXE_guideway"))
         .args(["render", "--quiet", "--size", &format!("{width}x{height}")])
+        .args(["--min-px", &format!("{}", 1.5 * factor)])
+        .args(["--max-px", &format!("{}", 12.0 * factor)])
         .arg(file)
         .arg("-o")
         .arg(rendered)

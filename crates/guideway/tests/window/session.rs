@@ -179,13 +179,19 @@ impl WindowSession {
 
 /// Starts a window with files on a screen.
 fn start(display: &str, files: &[&Path]) -> Child {
+    let state = files[0].with_file_name("state");
+    // The dialogs of a desktop, if there is one, would be no part of the window.
+    let settings = state.join("guideway");
+    fs::create_dir_all(&settings).expect("the folder is new");
+    let text = "[look]\nuses-desktop-dialogs = false\n";
+    fs::write(settings.join("window.toml"), text).expect("the folder is there");
     Command::new(env!("CARGO_BIN_EXE_guideway"))
         .args(["view", "--method", "cpu"])
         .args(files)
         .env("DISPLAY", display)
         .env_remove("WAYLAND_DISPLAY")
-        // Keeps the recent files of the user unchanged.
-        .env("XDG_STATE_HOME", files[0].with_file_name("state"))
+        // Keeps the recent files and settings of the user unchanged.
+        .env("XDG_STATE_HOME", state)
         .spawn()
         .expect("the command starts")
 }

@@ -1,56 +1,85 @@
 //! Dialogs over the window: prompts, questions, notices, help.
 
+mod about_dialog;
 mod confirm_dialog;
+mod file_picker;
+pub(crate) mod floor_plan_window;
 mod leave_dialog;
+mod loss_dialog;
 mod notices;
+mod path_line;
 mod prompt;
+mod prompt_kind;
 mod recent_dialog;
 mod recover_dialog;
+mod settings_dialog;
 mod shortcuts_window;
 
-use eframe::egui::Context;
+use eframe::egui::{Context, Rect};
 
+pub(crate) use about_dialog::AboutDialog;
 pub(crate) use confirm_dialog::{ConfirmDialog, Question, Risk};
+pub(crate) use file_picker::FilePicker;
 pub(crate) use leave_dialog::LeaveDialog;
+pub(crate) use loss_dialog::LossDialog;
 pub(crate) use notices::Notices;
-pub(crate) use prompt::{Prompt, PromptKind};
+pub(crate) use prompt::Prompt;
 pub(crate) use recent_dialog::RecentDialog;
+pub(crate) use settings_dialog::SettingsDialog;
 pub(crate) use shortcuts_window::ShortcutsWindow;
 
 use crate::action::Action;
 use crate::files::OpenFiles;
+use crate::services::AppServices;
 
 /// All dialogs; most are closed at any time.
 #[derive(Default)]
 pub(crate) struct Dialogs {
     pub(crate) prompt: Prompt,
+    pub(crate) picker: FilePicker,
+    pub(crate) losses: LossDialog,
     pub(crate) recent: RecentDialog,
     pub(crate) leave: LeaveDialog,
     pub(crate) confirm: ConfirmDialog,
     pub(crate) notices: Notices,
     pub(crate) shortcuts: ShortcutsWindow,
+    pub(crate) settings: SettingsDialog,
+    pub(crate) about: AboutDialog,
 }
 
 impl Dialogs {
     /// Closes the open dialogs; the question about unsaved work stays. Returns `false` if there is
     /// none.
     pub(crate) fn close(&mut self) -> bool {
+        // The line under it stays.
+        if self.picker.is_open() {
+            self.picker.close();
+            return true;
+        }
         let is_open = self.prompt.is_open()
+            || self.losses.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
-            || self.shortcuts.is_open;
+            || self.shortcuts.is_open
+            || self.settings.is_open
+            || self.about.is_open;
         self.prompt.close();
+        self.losses.close();
         self.recent.close();
         self.leave.close();
         self.confirm.close();
         self.shortcuts.is_open = false;
+        self.settings.is_open = false;
+        self.about.is_open = false;
         is_open
     }
 
     /// Returns `true` if a dialog waits for an answer: until then keys do nothing else.
     pub(crate) fn is_modal(&self, files: &OpenFiles) -> bool {
         self.prompt.is_open()
+            || self.picker.is_open()
+            || self.losses.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -58,14 +87,22 @@ impl Dialogs {
     }
 
     /// Shows the open dialogs and returns the actions of answers.
-    pub(crate) fn show(&mut self, ctx: &Context, files: &OpenFiles) -> Vec<Action> {
+    pub(crate) fn show(
+        &mut self,
+        ctx: &Context,
+        files: &OpenFiles,
+        services: &dyn AppServices,
+        canvas: Rect,
+    ) -> Vec<Action> {
         let mut actions = Vec::new();
-        actions.extend(self.prompt.show(ctx));
+        actions.extend(self.prompt.show(ctx, services));
+        actions.extend(self.picker.show(ctx).map(Action::Picked));
+        actions.extend(self.losses.show(ctx));
         actions.extend(self.recent.show(ctx));
         actions.extend(self.leave.show(ctx, files));
         actions.extend(self.confirm.show(ctx));
         actions.extend(recover_dialog::show(ctx, files));
-        self.notices.show(ctx);
+        self.notices.show(ctx, canvas);
         self.shortcuts.show(ctx);
         actions
     }

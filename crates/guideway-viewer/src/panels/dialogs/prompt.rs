@@ -1,71 +1,21 @@
-//! The prompt for a file name or a floor plan.
+//! The line in which a file name is typed: for desktops without a file dialog, and where a name
+//! has more to it, as the width of a PNG.
 
 use std::path::{Path, PathBuf};
 
-use eframe::egui::{Context, DragValue, Id, Key, Modal, TextEdit};
+use eframe::egui::{Context, DragValue, Id, Key, Modal, Modifiers, TextEdit, Ui};
 
-use crate::action::{Action, Export};
+use super::path_line::{Completion, complete, path_of};
+use crate::action::Action;
+use crate::file_purpose::PromptKind;
+use crate::services::AppServices;
 
 /// Width of an exported PNG until the user changes it, in pixels: 4K UHD.
 const DEFAULT_WIDTH_PX: u32 = 3840;
 /// Greatest side of a frame, in pixels.
 const MAX_WIDTH_PX: u32 = 65_535;
-
-/// The purpose of a prompt.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PromptKind {
-    Open,
-    SaveAs,
-    ExportPng,
-    ExportSvg,
-    FloorPlan,
-}
-
-impl PromptKind {
-    fn title(self) -> &'static str {
-        match self {
-            Self::Open => "Open file",
-            Self::SaveAs => "Save as (the extension selects the format)",
-            Self::ExportPng => "Export PNG file",
-            Self::ExportSvg => "Export SVG file",
-            Self::FloorPlan => {
-                "Floor plan: an image with its scale, such as \
-                 hall.png@px-per-m=20,offset=-3,-2,rotate=90, a map.yaml of ROS, or any layout or \
-                 drawing. Empty removes the floor plan."
-            }
-        }
-    }
-
-    /// The suggested text, derived from the active file.
-    fn suggestion(self, file: Option<&Path>) -> PathBuf {
-        let with = |extension| file.map(|file| file.with_extension(extension));
-        let suggestion = match self {
-            Self::Open | Self::FloorPlan => None,
-            Self::SaveAs => file.map(Path::to_owned),
-            Self::ExportPng => with("png"),
-            Self::ExportSvg => with("svg"),
-        };
-        suggestion.unwrap_or_default()
-    }
-
-    /// The action of an answer; `None` for an empty file name.
-    fn action(self, text: &str, width_px: u32) -> Option<Action> {
-        let path = PathBuf::from(text.trim());
-        if self == Self::FloorPlan {
-            return Some(Action::SetFloorPlan(text.to_owned()));
-        }
-        if path.as_os_str().is_empty() {
-            return None;
-        }
-        Some(match self {
-            Self::Open => Action::Open(path),
-            Self::SaveAs => Action::SaveAs(path),
-            Self::ExportPng => Action::Export(Export::Png { path, width_px }),
-            Self::ExportSvg => Action::Export(Export::Svg { path }),
-            Self::FloorPlan => return None,
-        })
-    }
-}
+/// Width of the line, in points.
+const LINE_WIDTH: f32 = 480.0;
 
 /// The open prompt, if any.
 #[derive(Default)]
@@ -80,15 +30,12 @@ pub(crate) struct OpenPrompt {
     pub(crate) width_px: u32,
     /// True if the text field takes the focus in the next frame.
     wants_focus: bool,
+    completion: Completion,
+    /// Why the text is no answer.
+    problem: Option<String>,
 }
 
 impl Prompt {
-    /// Opens a prompt that suggests a name derived from the active file.
-    pub(crate) fn ask(&mut self, kind: PromptKind, file: Option<&Path>) {
-        let text = kind.suggestion(file).to_string_lossy().into_owned();
-        self.ask_with_text(kind, text);
-    }
-
     /// Opens a prompt with this text.
     pub(crate) fn ask_with_text(&mut self, kind: PromptKind, text: String) {
         self.open = Some(OpenPrompt {
@@ -96,10 +43,29 @@ impl Prompt {
             text,
             width_px: DEFAULT_WIDTH_PX,
             wants_focus: true,
+            completion: Completion::default(),
+            problem: None,
         });
     }
 
-    pub(super) fn is_open(&self) -> bool {
+    /// Puts a chosen file into the open prompt of this kind. Returns `false` if there is none.
+    pub(crate) fn fill(&mut self, kind: PromptKind, file: &Path) -> bool {
+        let Some(prompt) = self.open.as_mut().filter(|prompt| prompt.kind == kind) else {
+            return false;
+        };
+        prompt.text = file.to_string_lossy().into_owned();
+        prompt.problem = None;
+        true
+    }
+
+    /// Shows a problem in the open prompt.
+    pub(crate) fn set_problem(&mut self, problem: &str) {
+        if let Some(prompt) = &mut self.open {
+            prompt.problem = Some(problem.to_owned());
+        }
+    }
+
+    pub(crate) fn is_open(&self) -> bool {
         self.open.is_some()
     }
 
@@ -112,54 +78,140 @@ impl Prompt {
         self.open = None;
     }
 
-    pub(super) fn show(&mut self, ctx: &Context) -> Option<Action> {
+    pub(super) fn show(&mut self, ctx: &Context, services: &dyn AppServices) -> Option<Action> {
         let prompt = self.open.as_mut()?;
-        let (mut is_answered, mut is_cancelled) = (false, false);
-        let modal = Modal::new(Id::unique("prompt")).show(ctx, |ui| {
-            let title = ui.label(prompt.kind.title());
-            let field = TextEdit::singleline(&mut prompt.text).desired_width(480.0);
-            let field = ui.add(field).labelled_by(title.id);
-            if std::mem::take(&mut prompt.wants_focus) {
-                field.request_focus();
+        let modal = Modal::new(Id::unique("prompt")).show(ctx, |ui| prompt.content(ui, services));
+        match modal.inner {
+            Some(Answer::Browse) => Some(Action::Browse(prompt.kind)),
+            Some(Answer::Ok) => {
+                prompt.problem = prompt.check(services);
+                if prompt.problem.is_some() {
+                    prompt.wants_focus = true;
+                    return None;
+                }
+                let prompt = self.open.take()?;
+                prompt.kind.action(prompt.answer(), prompt.width_px)
             }
-            if prompt.kind == PromptKind::ExportPng {
-                ui.horizontal(|ui| {
-                    ui.label("Width");
-                    let width = DragValue::new(&mut prompt.width_px);
-                    ui.add(width.range(1..=MAX_WIDTH_PX).suffix(" px"));
-                });
+            Some(Answer::Cancel) => {
+                self.open = None;
+                None
             }
-            ui.horizontal(|ui| {
-                let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-                is_answered = ui.button("OK").clicked() || enters;
-                is_cancelled = ui.button("Cancel").clicked();
-            });
-        });
-        let is_closed = is_answered || is_cancelled || modal.should_close();
-        let prompt = self.open.take_if(|_| is_closed)?;
-        match is_answered {
-            true => prompt.kind.action(&prompt.text, prompt.width_px),
-            false => None,
+            None => {
+                self.open.take_if(|_| modal.should_close());
+                None
+            }
         }
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn suggests_a_name_beside_the_active_file() {
-        let suggest = |kind: PromptKind| kind.suggestion(Some(Path::new("a/site.lif.json")));
-        assert_eq!(suggest(PromptKind::SaveAs), Path::new("a/site.lif.json"));
-        assert_eq!(suggest(PromptKind::ExportPng), Path::new("a/site.lif.png"));
-        assert_eq!(suggest(PromptKind::Open), Path::new(""));
+impl OpenPrompt {
+    fn content(&mut self, ui: &mut Ui, services: &dyn AppServices) -> Option<Answer> {
+        let mut answer = None;
+        ui.set_max_width(LINE_WIDTH);
+        let title = ui.label(self.kind.title());
+        let id = Id::unique("prompt line");
+        let tab = |ui: &mut Ui| ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Tab));
+        if ui.memory(|memory| memory.has_focus(id)) && tab(ui) {
+            self.completion = complete(&self.text);
+            self.text.clone_from(&self.completion.text);
+            place_cursor_at_end(ui, id, &self.text);
+        }
+        let line = TextEdit::singleline(&mut self.text).id(id).lock_focus(true);
+        let field = ui.add(line.desired_width(LINE_WIDTH)).labelled_by(title.id);
+        if std::mem::take(&mut self.wants_focus) {
+            field.request_focus();
+        }
+        if field.changed() {
+            (self.completion, self.problem) = (Completion::default(), None);
+        }
+        if let Some(problem) = &self.problem {
+            ui.colored_label(ui.visuals().error_fg_color, problem);
+        }
+        self.show_candidates(ui);
+        if self.kind == PromptKind::ExportPng {
+            ui.horizontal(|ui| {
+                ui.label("Width");
+                let width = DragValue::new(&mut self.width_px);
+                ui.add(width.range(1..=MAX_WIDTH_PX).suffix(" px"));
+            });
+        }
+        if self.kind == PromptKind::SaveAs {
+            ui.small(formats_line(services));
+        }
+        ui.small("Tab completes names of files and folders; ~ is your home folder");
+        ui.horizontal(|ui| {
+            let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if ui.button("OK").clicked() || enters {
+                answer = Some(Answer::Ok);
+            }
+            if ui.button("Browse…").clicked() {
+                answer = Some(Answer::Browse);
+            }
+            if ui.button("Cancel").clicked() {
+                answer = Some(Answer::Cancel);
+            }
+        });
+        answer
     }
 
-    #[test]
-    fn empty_answer_opens_nothing_but_removes_a_floor_plan() {
-        assert!(PromptKind::Open.action("  ", 1).is_none());
-        let action = PromptKind::FloorPlan.action("", 1);
-        assert!(matches!(action, Some(Action::SetFloorPlan(text)) if text.is_empty()));
+    /// Shows the names that the text can become, if there are several.
+    fn show_candidates(&self, ui: &mut Ui) {
+        if self.completion.candidates.len() > 1 {
+            let more = if self.completion.has_more { " …" } else { "" };
+            let names = self.completion.candidates.join("   ");
+            ui.small(names + more);
+        }
     }
+
+    /// The text as a path, or as it is where it is more than a path.
+    fn answer(&self) -> PathBuf {
+        match self.kind {
+            PromptKind::FloorPlan => PathBuf::from(self.text.trim()),
+            _ => path_of(&self.text),
+        }
+    }
+
+    /// Why the text is no answer, if it is none.
+    fn check(&self, services: &dyn AppServices) -> Option<String> {
+        let path = self.answer();
+        if path.as_os_str().is_empty() || self.kind == PromptKind::FloorPlan {
+            return None;
+        }
+        if path.is_dir() {
+            return Some("This is a folder: add the name of a file".into());
+        }
+        if self.kind.opens() {
+            let is_there = services.file_stamp(&path).is_some();
+            return (!is_there).then(|| "There is no such file".into());
+        }
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty())?;
+        (!folder.is_dir()).then(|| "There is no such folder".into())
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Answer {
+    Ok,
+    Browse,
+    Cancel,
+}
+
+/// The formats of layouts and their extensions.
+fn formats_line(services: &dyn AppServices) -> String {
+    let formats = services.layout_formats().into_iter().map(|format| {
+        let extensions: Vec<String> = format.extensions.iter().map(|e| format!(".{e}")).collect();
+        format!("{} ({})", format.name, extensions.join(", "))
+    });
+    format!("Formats: {}", formats.collect::<Vec<_>>().join(", "))
+}
+
+fn place_cursor_at_end(ui: &Ui, id: Id, text: &str) {
+    use eframe::egui::text::{CCursor, CCursorRange};
+    use eframe::egui::text_edit::TextEditState;
+    let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+    let end = CCursorRange::one(CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(end));
+    state.store(ui.ctx(), id);
 }

@@ -10,7 +10,9 @@ use guideway_envelope::EnvelopeSource;
 use guideway_layout::Layout;
 use guideway_scene::{Frame, Method, View};
 
-use crate::services::{AppServices, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
+use crate::services::{
+    AppServices, Job, LostPart, MethodChoice, PictureRequest, Saved, WINDOW_ERROR,
+};
 use crate::tests::services::TestServices;
 use guideway_layout::UserError;
 
@@ -95,7 +97,12 @@ impl AppServices for FileStore {
         self.disk.check_save_in_place(layout, file)
     }
 
-    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
+    fn save_layout(
+        &self,
+        layout: &Layout,
+        path: &Path,
+        _accepts: &dyn Fn(&[LostPart]) -> bool,
+    ) -> Result<Saved, UserError> {
         if *self
             .disk
             .is_full
@@ -110,7 +117,15 @@ impl AppServices for FileStore {
             });
         }
         self.put(layout);
-        Ok(Vec::new())
+        Ok(Saved::Written(Vec::new()))
+    }
+
+    fn read_project(&self, path: &Path) -> Result<String, UserError> {
+        self.disk.read_project(path)
+    }
+
+    fn write_project(&self, path: &Path, text: &str) -> Result<(), UserError> {
+        self.disk.write_project(path, text)
     }
 
     fn export_png(

@@ -64,6 +64,7 @@ impl DecorationArgs {
             has_legend: false,
             route: None,
             title: self.title.clone(),
+            px_per_point: None,
         }
     }
 }

@@ -42,6 +42,7 @@ fn movement_json(movement: &Movement) -> Value {
     json!({
         "name": movement.name,
         "frames_ms": movement.frames_ms,
+        "frames_presented": movement.presented,
         "pictures_ms": movement.pictures_ms,
         "shown_ms": movement.shown_ms,
         "settled_ms": movement.settled_ms,
@@ -50,8 +51,13 @@ fn movement_json(movement: &Movement) -> Value {
 
 fn table(movements: &[Movement]) -> String {
     let mut table = format!(
-        "{:<18} {:>30}   {:>22}   {:>10} {:>10}\n",
-        "", "frame: median, 95 %, longest", "pictures: count, median", "shown in", "settled in"
+        "{:<18} {:>30} {:>10}   {:>22}   {:>10} {:>10}\n",
+        "",
+        "frame: median, 95 %, longest",
+        "presented",
+        "pictures: count, median",
+        "shown in",
+        "settled in"
     );
     for movement in movements {
         let frames = Summary::of(&movement.frames_ms).unwrap_or_default();
@@ -65,8 +71,8 @@ fn table(movements: &[Movement]) -> String {
         let drawn = format!("{}, {}", pictures.count, text::time(pictures.median));
         let [shown, settled] = [movement.shown_ms, movement.settled_ms].map(text::time);
         table += &format!(
-            "{:<18} {frame:>30}   {drawn:>22}   {shown:>10} {settled:>10}\n",
-            movement.name
+            "{:<18} {frame:>30} {:>10}   {drawn:>22}   {shown:>10} {settled:>10}\n",
+            movement.name, movement.presented
         );
     }
     table

@@ -9,17 +9,22 @@ use std::time::Instant;
 use etcetera::BaseStrategy;
 use guideway::compose::{Backdrop, FloorPlan, Picture, SweptAreas, Viewport, draw_swept_areas};
 use guideway::envelope::EnvelopeSource;
-use guideway::formats::{Progress, read_file};
+use guideway::formats::{Progress, Target, read_file};
 use guideway::layout::{Layout, UserError, shown_path};
 use guideway::scene::{Frame, Method, View, elapsed_ms};
-use guideway_viewer::{AppServices, Job, LoadStage, MethodChoice, PictureRequest};
+use guideway_viewer::{
+    AppServices, FileFormat, FileQuestion, Job, LoadStage, LostPart, MethodChoice,
+    PendingFileAnswer, PictureRequest, Saved,
+};
 
+use super::{file_dialog, project_file, save};
 use crate::cli::convert;
+use crate::cli::demo;
 use crate::cli::error::usage_error;
 use crate::cli::floor_plan;
 use crate::cli::input::Input;
 use crate::cli::limits;
-use crate::cli::output::Output;
+use crate::cli::output::{self, Output};
 
 /// The services of the command.
 pub(super) struct CliServices {
@@ -53,13 +58,46 @@ impl AppServices for CliServices {
         Ok(read_file(path, &limits::read_options(Some(&progress)))?)
     }
 
+    fn example_site(&self) -> Result<Layout, UserError> {
+        demo::read_site()
+    }
+
     fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
         convert::check_in_place(layout, file)
     }
 
-    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
-        let (losses, _) = convert::write(convert::target_to_save(layout, path)?, layout, path)?;
-        Ok(losses.iter().map(|loss| loss.to_string()).collect())
+    fn save_layout(
+        &self,
+        layout: &Layout,
+        path: &Path,
+        accepts: &dyn Fn(&[LostPart]) -> bool,
+    ) -> Result<Saved, UserError> {
+        save::save(layout, path, accepts)
+    }
+
+    fn read_project(&self, path: &Path) -> Result<String, UserError> {
+        project_file::read(path)
+    }
+
+    fn write_project(&self, path: &Path, text: &str) -> Result<(), UserError> {
+        output::save(path, text.as_bytes())
+    }
+
+    fn layout_formats(&self) -> Vec<FileFormat> {
+        let with_extensions = Target::ALL.iter().filter(|t| !t.extensions().is_empty());
+        let format = |target: &Target| FileFormat {
+            name: target.name().to_owned(),
+            extensions: target
+                .extensions()
+                .iter()
+                .map(|extension| extension.trim_start_matches('.').to_owned())
+                .collect(),
+        };
+        with_extensions.map(format).collect()
+    }
+
+    fn ask_for_file(&self, question: &FileQuestion) -> Option<PendingFileAnswer> {
+        file_dialog::ask(question)
     }
 
     fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
@@ -159,6 +197,7 @@ fn picture(request: &PictureRequest) -> Picture {
     picture.style = request.style;
     picture.backdrop = Backdrop {
         floor_plan: request.floor_plan.clone(),
+        floor_plan_fade: 1.0 - request.floor_plan_opacity,
         lines: request.grid.clone(),
         swept: swept.map(|swept| SweptAreas {
             vehicle: swept.vehicle,
@@ -168,6 +207,7 @@ fn picture(request: &PictureRequest) -> Picture {
     };
     picture.overlay = request.marks.clone();
     picture.decorations.has_legend = request.scene.legend().is_some();
+    picture.decorations.px_per_point = Some(request.px_per_point);
     picture
 }
 

@@ -1,0 +1,62 @@
+//! The floor plan: opens its file, routes clicks and drags to it, and shows its dialog.
+
+use std::path::Path;
+
+use eframe::egui::Context;
+use guideway_compose::FloorPlanKind;
+use guideway_layout::shown_path;
+use guideway_spline::Point;
+
+use super::state::App;
+use crate::action::Action;
+use crate::backdrop::{PlanPlacement, PlanSize};
+use crate::files::LayerContext;
+use crate::panels::dialogs::floor_plan_window;
+use crate::tools::PointerEvent;
+
+/// Scale of an image until the user sets it, in pixels per meter.
+const FIRST_PX_PER_M: f64 = 20.0;
+
+impl App {
+    /// Shows a file as the floor plan. The dialog opens for an image, whose scale the user has to
+    /// set.
+    pub(super) fn set_floor_plan_file(&mut self, file: &Path) {
+        let is_image = FloorPlanKind::of_file(file) == FloorPlanKind::Image;
+        let placement = PlanPlacement {
+            file: shown_path(file),
+            size: match is_image {
+                true => PlanSize::PxPerM(FIRST_PX_PER_M),
+                false => PlanSize::Scale(1.0),
+            },
+            rotate_deg: 0.0,
+            offset_m: Point::default(),
+        };
+        self.plan_editor.is_open = is_image;
+        let LayerContext { services, repaint } = &self.context;
+        self.floor_plan.set(&placement.text(), services, repaint);
+    }
+
+    /// Shows the floor plan at another place.
+    pub(super) fn place_floor_plan(&mut self, placement: &PlanPlacement) {
+        let LayerContext { services, repaint } = &self.context;
+        self.floor_plan.place(placement, services, repaint);
+    }
+
+    /// Gives a pointer event to the floor plan. Returns `false` if it is none of its business.
+    pub(super) fn point_at_plan(&mut self, event: PointerEvent) -> bool {
+        let Some(view) = self.canvas.camera.view() else {
+            return false;
+        };
+        let editor = &mut self.plan_editor;
+        let (is_taken, placed) = editor.handle(event, &view, &mut self.floor_plan);
+        if let Some(placement) = placed {
+            self.place_floor_plan(&placement);
+        }
+        is_taken
+    }
+
+    /// Shows the dialog if it is open, and returns the actions of changes.
+    pub(super) fn show_floor_plan_window(&mut self, ctx: &Context) -> Vec<Action> {
+        floor_plan_window::show(ctx, &mut self.plan_editor, &mut self.floor_plan)
+    }
+}

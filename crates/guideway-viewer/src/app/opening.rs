@@ -1,0 +1,50 @@
+//! Opens files of any kind: at the start, dropped on the window, or named by the user.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use guideway_compose::FloorPlanKind;
+
+use super::state::App;
+use crate::LaunchOptions;
+use crate::background::RepaintHandle;
+use crate::files::LayerContext;
+use crate::project::is_project;
+use crate::services::AppServices;
+
+impl App {
+    /// Starts the application and begins to read the files of `options`. Background threads call
+    /// `repaint`.
+    pub(crate) fn launch(
+        repaint: RepaintHandle,
+        services: Arc<dyn AppServices>,
+        options: LaunchOptions,
+    ) -> Self {
+        let mut app = Self::new(repaint, services, options.method);
+        for file in options.files {
+            app.open_any(file);
+        }
+        // A project may have a floor plan of its own.
+        if !options.floor_plan.is_empty() {
+            let LayerContext { services, repaint } = &app.context;
+            app.floor_plan.set(&options.floor_plan, services, repaint);
+        }
+        app
+    }
+
+    /// Opens a layout or a project.
+    pub(crate) fn open_any(&mut self, path: PathBuf) {
+        match is_project(&path) {
+            true => self.open_project(&path),
+            false => self.open(path),
+        }
+    }
+
+    /// Opens a dropped layout. A dropped map of ROS or image becomes the floor plan.
+    pub(super) fn open_dropped(&mut self, file: &Path) {
+        match FloorPlanKind::of_file(file) {
+            FloorPlanKind::Layout => self.open_any(file.to_path_buf()),
+            FloorPlanKind::RosMap | FloorPlanKind::Image => self.set_floor_plan_file(file),
+        }
+    }
+}

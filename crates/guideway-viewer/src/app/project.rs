@@ -1,0 +1,254 @@
+//! Projects: writes what the window shows into a file, and opens what such a file remembers.
+
+use std::path::{Path, PathBuf};
+
+use guideway_document::Document;
+use guideway_layout::shown_path;
+use guideway_spline::Point;
+
+use super::open_project::OpenProject;
+use super::state::App;
+use crate::action::Action;
+use crate::command::Command;
+use crate::display_settings::DisplaySettings;
+use crate::editing::EditTask;
+use crate::file_purpose::PromptKind;
+use crate::files::LayerContext;
+use crate::panels::dialogs::{Question, Risk};
+use crate::project::{
+    Project, ProjectFile, ProjectPlan, ProjectView, SUFFIX, absolute_from, is_project, relative_to,
+};
+
+impl App {
+    /// Saves the project where it was opened or saved before; else asks for a name.
+    pub(super) fn save_project_in_place(&mut self) {
+        match self.project.path.clone() {
+            Some(path) => self.save_project(path),
+            None => self.ask_for_file(PromptKind::SaveProject),
+        }
+    }
+
+    /// Saves the project under this name; asks before it replaces a file.
+    pub(super) fn save_project_as(&mut self, path: PathBuf) {
+        let path = with_suffix(path);
+        if self.context.services.file_stamp(&path).is_none() {
+            return self.save_project(path);
+        }
+        self.dialogs.confirm.ask(Question {
+            file: path.clone(),
+            risk: Risk::ReplacesFile(Command::SaveProject),
+            confirmed: Action::SaveProjectOver(path),
+        });
+    }
+
+    /// Saves the project under this name.
+    pub(super) fn save_project(&mut self, path: PathBuf) {
+        let text = self.project_of(&path).and_then(|project| project.text());
+        let written = text.and_then(|text| {
+            let written = self.context.services.write_project(&path, &text);
+            written.map_err(|error| error.to_string())
+        });
+        let notices = &mut self.dialogs.notices;
+        if let Err(error) = written {
+            return notices.add(error);
+        }
+        notices.inform(format!("Saved {}", shown_path(&path)));
+        let layers = self.files.layers().iter();
+        let untitled = layers.filter(|layer| layer.is_untitled()).count();
+        if untitled > 0 {
+            notices.add("Layouts without a file are not in the project: save them, then save it");
+        }
+        let error = self.files.remember_path(&path);
+        self.project.path = Some(path);
+        self.notify_all(error);
+    }
+
+    /// The project of what the window shows, for a file at `path`.
+    fn project_of(&self, path: &Path) -> Result<Project, String> {
+        let name = |file: &Path| relative_to(path, file).map_err(|error| error.to_string());
+        let layers = self.files.layers().iter();
+        let saved: Vec<_> = layers.filter(|layer| !layer.is_untitled()).collect();
+        let active = self.files.active();
+        let active = active.and_then(|active| saved.iter().position(|l| std::ptr::eq(*l, active)));
+        let file = saved.iter().map(|layer| {
+            Ok(ProjectFile {
+                path: name(layer.path())?,
+                is_shown: layer.is_visible,
+            })
+        });
+        let plan = &self.floor_plan;
+        let floor_plan = plan.placement().map(|placement| {
+            let (text, file) = (placement.text(), &placement.file);
+            let place = text[file.len()..].trim_start_matches('@');
+            Ok::<_, String>(ProjectPlan {
+                path: name(Path::new(file))?,
+                place: place.to_owned(),
+                is_shown: plan.is_visible,
+                is_locked: plan.is_locked,
+                opacity: plan.opacity,
+            })
+        });
+        let view = self.canvas.camera.view();
+        Ok(Project {
+            active: active.unwrap_or(0),
+            level: self.document().and_then(shown_level),
+            color_by: self.settings.color_by.clone(),
+            view: view.map(|view| ProjectView {
+                center_m: [view.center_m().x, view.center_m().y],
+                px_per_m: view.px_per_m(),
+            }),
+            floor_plan: floor_plan.transpose()?,
+            look: self.settings.clone(),
+            file: file.collect::<Result<_, String>>()?,
+            ..Project::default()
+        })
+    }
+
+    /// Opens what a project remembers, and closes the other files unless they have changes. Names
+    /// the files that are missing.
+    pub(super) fn open_project(&mut self, path: &Path) {
+        let services = std::sync::Arc::clone(&self.context.services);
+        let text = services
+            .read_project(path)
+            .map_err(|error| error.to_string());
+        let project = match text.and_then(|text| Project::parse(&text)) {
+            Ok(project) => project,
+            Err(error) => {
+                let file = shown_path(path);
+                return self.dialogs.notices.add(format!("{file}: {error}"));
+            }
+        };
+        self.close_unchanged();
+        self.project = OpenProject {
+            path: Some(path.to_owned()),
+            view: project.view.map(|view| {
+                let [x, y] = view.center_m;
+                (Point::new(x, y), view.px_per_m)
+            }),
+            level: project.level.clone(),
+        };
+        self.settings = DisplaySettings {
+            theme: self.settings.theme,
+            is_dark: self.settings.is_dark,
+            color_by: project.color_by.clone(),
+            uses_desktop_dialogs: self.settings.uses_desktop_dialogs,
+            ..project.look.clone()
+        };
+        self.recolor();
+        let missing = self.open_project_files(path, &project);
+        if !missing.is_empty() {
+            let names = missing.join(", ");
+            let notice = format!("Files of the project that do not exist: {names}");
+            self.dialogs.notices.add(notice);
+        }
+        // Without a file nothing arrives that would set the view.
+        if let (true, Some((center_m, px_per_m))) =
+            (self.files.layers().is_empty(), self.project.view)
+        {
+            self.canvas.camera.look_at(center_m, px_per_m);
+        }
+        let error = self.files.remember_path(path);
+        self.notify_all(error);
+    }
+
+    /// Opens the files and the floor plan of a project. Returns the names of missing ones.
+    fn open_project_files(&mut self, path: &Path, project: &Project) -> Vec<String> {
+        let services = std::sync::Arc::clone(&self.context.services);
+        let mut missing = Vec::new();
+        let mut is_there = |file: &Path| {
+            let is_there = services.file_stamp(file).is_some();
+            if !is_there {
+                missing.push(shown_path(file));
+            }
+            is_there
+        };
+        let mut active = None;
+        for (number, file) in project.file.iter().enumerate() {
+            let full = absolute_from(path, &file.path);
+            if !is_there(&full) {
+                continue;
+            }
+            self.open(full);
+            let index = self.files.active_index();
+            if let Some(layer) = self.files.active_mut() {
+                layer.is_visible = file.is_shown;
+            }
+            if number == project.active {
+                active = Some(index);
+            }
+        }
+        self.files.activate(active.unwrap_or(0));
+        let plan = project.floor_plan.as_ref();
+        let full = plan.map(|plan| (plan, absolute_from(path, &plan.path)));
+        match full.filter(|(_, full)| is_there(full)) {
+            Some((plan, full)) => self.open_project_plan(plan, &full),
+            None => self.floor_plan = Default::default(),
+        }
+        missing
+    }
+
+    fn open_project_plan(&mut self, plan: &ProjectPlan, file: &Path) {
+        let file = file.to_string_lossy();
+        let text = match plan.place.is_empty() {
+            true => file.into_owned(),
+            false => format!("{file}@{}", plan.place),
+        };
+        let LayerContext { services, repaint } = &self.context;
+        self.floor_plan.set(&text, services, repaint);
+        self.floor_plan.is_visible = plan.is_shown;
+        self.floor_plan.is_locked = plan.is_locked;
+        self.floor_plan.opacity = plan.opacity;
+    }
+
+    fn close_unchanged(&mut self) {
+        for index in (0..self.files.layers().len()).rev() {
+            if !self.files.layers()[index].is_changed() {
+                self.close(index);
+            }
+        }
+    }
+
+    /// Shows the level of the project once the active file is loaded.
+    pub(super) fn restore_level(&mut self, index: usize) {
+        if index != self.files.active_index() {
+            return;
+        }
+        if let Some(level) = self.project.level.take() {
+            self.edit(EditTask::view_change(move |document| {
+                let mut levels = document.layout().levels.iter();
+                let row = levels.position(|other| other.id == level);
+                if let Some(row) = row {
+                    document.show_level(Some(row as u32));
+                }
+            }));
+        }
+    }
+}
+
+/// The level whose paths alone are shown.
+fn shown_level(document: &Document) -> Option<String> {
+    let (scene, layout) = (document.scene(), document.layout());
+    if scene.hidden_count() == 0 {
+        return None;
+    }
+    let mut levels = scene.draw_order().iter();
+    let level = |row: &u32| layout.paths.get(*row as usize).level();
+    let first = level(levels.next()?)?;
+    let is_one = levels.all(|row| level(row) == Some(first));
+    is_one.then(|| {
+        layout
+            .levels
+            .get(first as usize)
+            .map(|level| level.id.clone())
+    })?
+}
+
+/// The name with the end by which projects are known.
+fn with_suffix(path: PathBuf) -> PathBuf {
+    if is_project(&path) {
+        return path;
+    }
+    let mut name = path.into_os_string();
+    name.push(SUFFIX);
+    PathBuf::from(name)
+}

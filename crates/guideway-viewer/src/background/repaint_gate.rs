@@ -1,0 +1,144 @@
+//! Decides which of egui's requests for a repaint show a frame. By itself egui shows three frames
+//! per input event, so that late changes settle; each costs a whole window, which a processor
+//! without graphics hardware draws in a tenth of a second.
+
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::thread::{self, ThreadId};
+
+use eframe::egui::{Context, Event, RawInput, Vec2};
+
+/// First frames, in which the parts of the window find their places, and which follow each other.
+const FIRST_FRAMES: u32 = 3;
+
+/// Admits what the window and its threads ask for, and leaves out what egui adds.
+pub(crate) struct RepaintGate {
+    /// The thread that shows frames.
+    window_thread: ThreadId,
+    /// True from the begin of a frame until the window is shown: egui makes its requests then.
+    is_beginning: AtomicBool,
+    /// True if another frame follows this one.
+    is_unsettled: AtomicBool,
+    frames: AtomicU32,
+}
+
+impl RepaintGate {
+    /// A gate for the window of this thread.
+    pub(crate) fn new() -> Self {
+        Self {
+            window_thread: thread::current().id(),
+            is_beginning: AtomicBool::new(false),
+            is_unsettled: AtomicBool::new(false),
+            frames: AtomicU32::new(0),
+        }
+    }
+
+    /// A frame with this input begins.
+    pub(crate) fn begin(&self, input: &RawInput) {
+        self.is_beginning.store(true, Ordering::SeqCst);
+        let is_first = self.frames.fetch_add(1, Ordering::SeqCst) < FIRST_FRAMES;
+        let is_unsettled = is_first || input.events.iter().any(changes_parts_late);
+        self.is_unsettled.store(is_unsettled, Ordering::SeqCst);
+    }
+
+    /// The window is about to be shown: requests count from now on.
+    pub(crate) fn show(&self, ctx: &Context) {
+        self.is_beginning.store(false, Ordering::SeqCst);
+        // egui spreads a turn of the wheel over several frames.
+        let is_scrolling = ctx.input(|input| input.smooth_scroll_delta() != Vec2::ZERO);
+        if self.is_unsettled.swap(false, Ordering::SeqCst) || is_scrolling {
+            ctx.request_repaint();
+        }
+    }
+
+    /// Returns `true` if a request that is made now shows a frame.
+    pub(crate) fn admits(&self) -> bool {
+        let is_of_egui = self.is_beginning.load(Ordering::SeqCst);
+        !is_of_egui || thread::current().id() != self.window_thread
+    }
+}
+
+/// Returns `true` if an event may change a part of the window that is shown before the part which
+/// handles it, as a button does. Where the pointer is, is known before all parts.
+fn changes_parts_late(event: &Event) -> bool {
+    !matches!(event, Event::PointerMoved(_) | Event::MouseMoved(_))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicUsize;
+
+    use eframe::egui::{Modifiers, PointerButton, Pos2, RequestRepaintInfo};
+
+    use super::*;
+
+    /// Runs frames as eframe does: one for the events, then one per admitted request.
+    fn frames_for(events: Vec<Event>, has_gate: bool) -> usize {
+        let (ctx, gate) = (Context::default(), Arc::new(RepaintGate::new()));
+        let requests = Arc::<AtomicUsize>::default();
+        let (counted, watched) = (Arc::clone(&requests), Arc::clone(&gate));
+        match has_gate {
+            true => ctx.set_repaint_observer(Box::new(move |info: RequestRepaintInfo| {
+                if info.delay.is_zero() && watched.admits() {
+                    counted.fetch_add(1, Ordering::SeqCst);
+                }
+            })),
+            false => ctx.set_request_repaint_callback(move |_| {
+                counted.fetch_add(1, Ordering::SeqCst);
+            }),
+        }
+        let frame = |events| {
+            requests.store(0, Ordering::SeqCst);
+            let input = RawInput {
+                events,
+                ..RawInput::default()
+            };
+            gate.begin(&input);
+            let mut output = ctx.run_ui(input, |ui| {
+                gate.show(ui.ctx());
+                ui.label("a window");
+            });
+            output.textures_delta.clear();
+            requests.load(Ordering::SeqCst) > 0
+        };
+        for _ in 0..10 {
+            frame(Vec::new());
+        }
+        let mut count = 1;
+        let mut goes_on = frame(events);
+        while goes_on && count < 100 {
+            goes_on = frame(Vec::new());
+            count += 1;
+        }
+        count
+    }
+
+    #[test]
+    fn one_frame_per_movement_and_two_per_click() {
+        let at = Pos2::new(5.0, 5.0);
+        let moved = vec![Event::PointerMoved(at)];
+        assert_eq!(frames_for(moved.clone(), false), 3, "what egui does alone");
+        assert_eq!(frames_for(moved, true), 1);
+        let press = Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed: true,
+            modifiers: Modifiers::NONE,
+        };
+        assert_eq!(frames_for(vec![press], true), 2);
+        assert_eq!(frames_for(vec![], true), 1);
+    }
+
+    #[test]
+    fn requests_of_threads_count_at_any_time() {
+        let gate = RepaintGate::new();
+        gate.begin(&RawInput::default());
+        assert!(!gate.admits());
+        thread::scope(|scope| {
+            let elsewhere = scope.spawn(|| gate.admits());
+            assert!(elsewhere.join().unwrap());
+        });
+        gate.show(&Context::default());
+        assert!(gate.admits());
+    }
+}

@@ -1,0 +1,107 @@
+//! The state of commands in menus and the toolbar: text, tick, and whether they can run.
+
+use crate::command::Command;
+use crate::display_settings::DisplaySettings;
+use crate::files::OpenFiles;
+use crate::tools::Tool;
+
+/// Everything that the state of a command depends on.
+pub(crate) struct CommandState<'a> {
+    pub(crate) files: &'a OpenFiles,
+    pub(crate) settings: &'a DisplaySettings,
+    /// True if swept areas are shown.
+    pub(crate) has_swept_areas: bool,
+    pub(crate) tool: Tool,
+}
+
+impl CommandState<'_> {
+    /// The text of a command; undo and redo name their step.
+    pub(super) fn label(&self, command: Command) -> String {
+        let document = self.files.document();
+        let (undo, redo) = document.map_or((None, None), |document| document.undo_redo_names());
+        let step = match command {
+            Command::Undo => undo,
+            Command::Redo => redo,
+            _ => None,
+        };
+        let label = command.label();
+        step.map_or_else(|| label.to_owned(), |step| format!("{label}: {step}"))
+    }
+
+    /// Returns `true` if a command has something to act on.
+    pub(super) fn is_possible(&self, command: Command) -> bool {
+        let Some(layer) = self.files.active() else {
+            return !needs_file(command);
+        };
+        // While an edit has the document, what comes after it is not known.
+        let Some(document) = layer.document() else {
+            return true;
+        };
+        let (undo, redo) = document.undo_redo_names();
+        match command {
+            Command::Undo => undo.is_some(),
+            Command::Redo => redo.is_some(),
+            Command::ShowAll => document.scene().hidden_count() > 0,
+            Command::NextFile => self.files.layers().len() > 1,
+            Command::FinishPath => self.tool == Tool::Draw,
+            command if needs_selection(command) => !document.selection().is_empty(),
+            _ => true,
+        }
+    }
+
+    /// Returns `true` if a command is a switch that is on.
+    pub(super) fn is_on(&self, command: Command) -> bool {
+        match command {
+            Command::Arrows => self.settings.has_arrows,
+            Command::Symbols => self.settings.has_symbols,
+            Command::Labels => self.settings.has_labels,
+            Command::Grid => self.settings.has_grid,
+            Command::Density => self.settings.is_density,
+            Command::ThesisRule => self.settings.is_thesis_rule,
+            Command::Dark => self.settings.is_dark,
+            Command::SweptAreas => self.has_swept_areas,
+            Command::ToolSelect => self.tool == Tool::Select,
+            Command::ToolPoints => self.tool == Tool::Points,
+            Command::ToolDraw => self.tool == Tool::Draw,
+            Command::ToolMeasure => self.tool == Tool::Measure,
+            _ => false,
+        }
+    }
+}
+
+fn needs_selection(command: Command) -> bool {
+    matches!(
+        command,
+        Command::Deselect
+            | Command::Delete
+            | Command::Duplicate
+            | Command::RotateLeft
+            | Command::FlipHorizontal
+            | Command::FlipVertical
+            | Command::Refine
+            | Command::ZoomToSelection
+            | Command::Hide
+            | Command::Isolate
+    )
+}
+
+fn needs_file(command: Command) -> bool {
+    needs_selection(command)
+        || matches!(
+            command,
+            Command::Reload
+                | Command::Save
+                | Command::SaveAs
+                | Command::ExportPng
+                | Command::ExportSvg
+                | Command::CopyPicture
+                | Command::Close
+                | Command::Undo
+                | Command::Redo
+                | Command::SelectAll
+                | Command::Find
+                | Command::NextFile
+                | Command::ShowAll
+                | Command::FinishPath
+        )
+}

@@ -1,0 +1,170 @@
+//! The dialog of the floor plan: size, place, opacity, lock, and the tasks by hand.
+
+use eframe::egui::{Button, Context, DragValue, Grid, Label, Response, Slider, Ui, Window};
+use guideway_spline::Point;
+
+use crate::action::Action;
+use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanPlacement, PlanSize, PlanTask};
+use crate::command::Command;
+
+/// Range of the pixels per meter of an image, and of the scale of a drawing.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+/// Range of typed distances and offsets, in meters.
+const MAX_M: f64 = 1e7;
+/// Width of the dialog, in points.
+const WIDTH: f32 = 280.0;
+
+/// Shows the dialog if it is open, and returns the actions of changes.
+pub(crate) fn show(
+    ctx: &Context,
+    editor: &mut PlanEditor,
+    plan: &mut FloorPlanLayer,
+) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let mut is_open = editor.is_open && !plan.is_empty();
+    let window = Window::new("Floor plan").open(&mut is_open);
+    window
+        .resizable(false)
+        .default_width(WIDTH)
+        .show(ctx, |ui| {
+            ui.set_max_width(WIDTH);
+            content(ui, editor, plan, &mut actions);
+        });
+    if editor.is_open && !is_open {
+        editor.cancel(plan);
+    }
+    editor.is_open = is_open;
+    actions
+}
+
+fn content(
+    ui: &mut Ui,
+    editor: &mut PlanEditor,
+    plan: &mut FloorPlanLayer,
+    actions: &mut Vec<Action>,
+) {
+    if let Some(error) = plan.error() {
+        ui.colored_label(ui.visuals().error_fg_color, error);
+    }
+    match plan.placement() {
+        Some(placement) => {
+            ui.add(Label::new(&placement.file).truncate())
+                .on_hover_text(&placement.file);
+            let bounds = plan.visible().and_then(|plan| plan.bounds());
+            let middle_m = bounds.map(|bounds| bounds.center());
+            let place = Place {
+                present: &placement,
+                middle_m,
+            };
+            if let Some(placement) = place.show(ui, plan.is_locked) {
+                actions.push(Action::PlaceFloorPlan(placement));
+            }
+        }
+        None => {
+            ui.label(plan.text());
+        }
+    }
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut plan.is_visible, "Shown");
+        ui.checkbox(&mut plan.is_locked, "Locked");
+    });
+    ui.add(Slider::new(&mut plan.opacity, 0.0..=1.0).text("Opacity"));
+    ui.separator();
+    ui.add_enabled_ui(!plan.is_locked, |ui| {
+        tasks(ui, editor, plan, actions);
+    });
+    ui.separator();
+    ui.horizontal(|ui| {
+        if ui.button("Another file…").clicked() {
+            actions.push(Action::Command(Command::FloorPlan));
+        }
+        if ui.button("Remove").clicked() {
+            actions.push(Action::SetFloorPlan(String::new()));
+        }
+    });
+}
+
+/// The fields of size and place.
+struct Place<'a> {
+    present: &'a PlanPlacement,
+    /// Middle of the plan, which a turn keeps where it is.
+    middle_m: Option<Point<f64>>,
+}
+
+impl Place<'_> {
+    /// Shows the fields and returns the placement after an edit.
+    fn show(&self, ui: &mut Ui, is_locked: bool) -> Option<PlanPlacement> {
+        let mut new = self.present.clone();
+        ui.add_enabled_ui(!is_locked, |ui| {
+            Grid::new("floor plan").num_columns(2).show(ui, |ui| {
+                let (label, value) = match &mut new.size {
+                    PlanSize::PxPerM(px_per_m) => ("Pixels per meter", px_per_m),
+                    PlanSize::Scale(scale) => ("Scale", scale),
+                };
+                let speed = 0.01 * value.abs().max(1e-3);
+                let size = DragValue::new(value).range(SIZES).speed(speed);
+                field(ui, label, size.max_decimals(6));
+                let mut rotate_deg = new.rotate_deg;
+                let turn = DragValue::new(&mut rotate_deg).suffix("°").speed(0.5);
+                if field(ui, "Rotation", turn.range(-360.0..=360.0)).changed() {
+                    let middle_m = self.middle_m.unwrap_or(new.offset_m);
+                    new = new.turned_about(middle_m, rotate_deg - new.rotate_deg);
+                }
+                let Point { x, y } = &mut new.offset_m;
+                for (label, value) in [("x", x), ("y", y)] {
+                    let offset = DragValue::new(value).suffix(" m").speed(0.05);
+                    field(ui, label, offset.range(-MAX_M..=MAX_M));
+                }
+            });
+        });
+        (new != *self.present).then_some(new)
+    }
+}
+
+fn field(ui: &mut Ui, label: &str, value: DragValue<'_>) -> Response {
+    let label = ui.label(label);
+    let response = ui.add(value).labelled_by(label.id);
+    ui.end_row();
+    response
+}
+
+/// The tasks by hand, and what the present one waits for.
+fn tasks(ui: &mut Ui, editor: &mut PlanEditor, plan: &FloorPlanLayer, actions: &mut Vec<Action>) {
+    ui.horizontal(|ui| {
+        let is_moving = matches!(editor.task, PlanTask::Move(_));
+        if ui.selectable_label(is_moving, "Move by hand").clicked() {
+            editor.toggle(PlanTask::Move(None));
+        }
+        let is_calibrating = matches!(editor.task, PlanTask::Calibrate(_));
+        let calibrate = ui.selectable_label(is_calibrating, "Scale by two points");
+        if calibrate.clicked() {
+            editor.toggle(PlanTask::Calibrate(Vec::new()));
+        }
+    });
+    let points = match &editor.task {
+        PlanTask::None => return,
+        PlanTask::Move(_) => {
+            ui.label("Drag the plan; Escape ends.");
+            return;
+        }
+        PlanTask::Calibrate(points) => points.len(),
+    };
+    if points < 2 {
+        ui.label("Click two points whose distance you know.");
+        return;
+    }
+    ui.horizontal(|ui| {
+        let label = ui.label("Their distance");
+        let distance = DragValue::new(&mut editor.distance_m).suffix(" m");
+        ui.add(distance.range(0.0..=MAX_M).speed(0.05).max_decimals(4))
+            .labelled_by(label.id);
+        let calibrated = editor.calibrated(plan);
+        let button = Button::new("Apply");
+        if ui.add_enabled(calibrated.is_some(), button).clicked()
+            && let Some(placement) = calibrated
+        {
+            actions.push(Action::PlaceFloorPlan(placement));
+            editor.task = PlanTask::None;
+        }
+    });
+}

@@ -1,0 +1,64 @@
+//! The settings that no menu has: theme, grid, file dialogs.
+
+use eframe::egui::{Checkbox, Context, DragValue, Grid, Ui, Window};
+
+use crate::action::Action;
+use crate::display_settings::{DisplaySettings, GRID_STEPS_M, ThemeChoice};
+
+/// Grid step when the user first sets one, in meters.
+const FIRST_STEP_M: f64 = 1.0;
+
+/// The dialog.
+#[derive(Default)]
+pub(crate) struct SettingsDialog {
+    pub(crate) is_open: bool,
+}
+
+impl SettingsDialog {
+    /// Shows the dialog if it is open; changes apply at once.
+    pub(crate) fn show(&mut self, ctx: &Context, settings: &mut DisplaySettings) -> Option<Action> {
+        let before = settings.theme;
+        let window = Window::new("Settings").open(&mut self.is_open);
+        window.resizable(false).show(ctx, |ui| {
+            Grid::new("settings").num_columns(2).show(ui, |ui| {
+                theme(ui, settings);
+                grid_step(ui, settings);
+                ui.label("File names");
+                let asks = &mut settings.uses_desktop_dialogs;
+                ui.add(Checkbox::new(asks, "ask in the dialogs of the desktop"));
+                ui.end_row();
+            });
+        });
+        (settings.theme != before).then_some(Action::ApplyTheme)
+    }
+}
+
+fn theme(ui: &mut Ui, settings: &mut DisplaySettings) {
+    ui.label("Theme");
+    ui.horizontal(|ui| {
+        for (choice, name) in [
+            (ThemeChoice::System, "as the desktop"),
+            (ThemeChoice::Light, "light"),
+            (ThemeChoice::Dark, "dark"),
+        ] {
+            ui.radio_value(&mut settings.theme, choice, name);
+        }
+    });
+    ui.end_row();
+}
+
+fn grid_step(ui: &mut Ui, settings: &mut DisplaySettings) {
+    ui.label("Grid lines");
+    ui.horizontal(|ui| {
+        let mut is_given = settings.grid_step_m.is_some();
+        if ui.checkbox(&mut is_given, "every").clicked() {
+            settings.grid_step_m = is_given.then_some(FIRST_STEP_M);
+        }
+        let mut step_m = settings.grid_step_m.unwrap_or(FIRST_STEP_M);
+        let field = DragValue::new(&mut step_m).range(GRID_STEPS_M).speed(0.05);
+        if ui.add_enabled(is_given, field.suffix(" m")).changed() {
+            settings.grid_step_m = Some(step_m);
+        }
+    });
+    ui.end_row();
+}

@@ -1,0 +1,169 @@
+//! Icons of the commands: lines in a square of 16 x 16, drawn in the color of the text.
+
+use eframe::egui::{Painter, Pos2, Rect, Shape, Stroke, Vec2};
+
+use crate::command::Command;
+
+/// Side of the square in which the icons are given.
+pub(super) const SIDE: f32 = 16.0;
+/// Width of the lines, in sides of the square.
+const LINE: f32 = 1.4 / SIDE;
+
+pub(super) type Line = &'static [[f32; 2]];
+
+const OPEN: &[Line] = &[
+    &[
+        [1.0, 13.0],
+        [1.0, 3.0],
+        [6.0, 3.0],
+        [8.0, 5.0],
+        [13.0, 5.0],
+        [13.0, 7.0],
+    ],
+    &[
+        [1.0, 13.0],
+        [4.0, 7.0],
+        [15.5, 7.0],
+        [12.5, 13.0],
+        [1.0, 13.0],
+    ],
+];
+const SAVE: &[Line] = &[
+    &[
+        [2.0, 2.0],
+        [12.0, 2.0],
+        [14.0, 4.0],
+        [14.0, 14.0],
+        [2.0, 14.0],
+        [2.0, 2.0],
+    ],
+    &[[5.0, 2.0], [5.0, 6.0], [11.0, 6.0], [11.0, 2.0]],
+    &[[4.5, 14.0], [4.5, 9.0], [11.5, 9.0], [11.5, 14.0]],
+];
+const UNDO: &[Line] = &[
+    &[[6.0, 2.5], [2.0, 6.5], [6.0, 10.5]],
+    &[
+        [2.0, 6.5],
+        [10.0, 6.5],
+        [13.0, 8.0],
+        [14.0, 10.5],
+        [12.5, 13.0],
+        [8.0, 13.5],
+    ],
+];
+const REDO: &[Line] = &[
+    &[[10.0, 2.5], [14.0, 6.5], [10.0, 10.5]],
+    &[
+        [14.0, 6.5],
+        [6.0, 6.5],
+        [3.0, 8.0],
+        [2.0, 10.5],
+        [3.5, 13.0],
+        [8.0, 13.5],
+    ],
+];
+const SELECT: &[Line] = &[&[
+    [3.5, 1.5],
+    [3.5, 12.5],
+    [6.5, 9.8],
+    [8.6, 14.5],
+    [10.6, 13.6],
+    [8.5, 9.0],
+    [12.5, 9.0],
+    [3.5, 1.5],
+]];
+const POINTS: &[Line] = &[
+    &[[3.5, 11.0], [5.0, 6.0], [8.0, 4.0], [12.0, 3.5]],
+    &[
+        [1.5, 11.0],
+        [5.0, 11.0],
+        [5.0, 14.5],
+        [1.5, 14.5],
+        [1.5, 11.0],
+    ],
+    &[
+        [12.0, 1.5],
+        [15.0, 1.5],
+        [15.0, 5.0],
+        [12.0, 5.0],
+        [12.0, 1.5],
+    ],
+];
+const DRAW: &[Line] = &[
+    &[
+        [2.0, 14.0],
+        [3.0, 10.0],
+        [11.0, 2.0],
+        [14.0, 5.0],
+        [6.0, 13.0],
+        [2.0, 14.0],
+    ],
+    &[[9.0, 4.0], [12.0, 7.0]],
+];
+const MEASURE: &[Line] = &[
+    &[
+        [1.5, 10.5],
+        [10.5, 1.5],
+        [14.5, 5.5],
+        [5.5, 14.5],
+        [1.5, 10.5],
+    ],
+    &[[4.5, 7.5], [6.5, 9.5]],
+    &[[7.5, 4.5], [9.5, 6.5]],
+];
+const ZOOM_TO_ALL: &[Line] = &[
+    &[[2.0, 6.0], [2.0, 2.0], [6.0, 2.0]],
+    &[[10.0, 2.0], [14.0, 2.0], [14.0, 6.0]],
+    &[[14.0, 10.0], [14.0, 14.0], [10.0, 14.0]],
+    &[[6.0, 14.0], [2.0, 14.0], [2.0, 10.0]],
+    &[[5.5, 8.0], [8.0, 5.5], [10.5, 8.0], [8.0, 10.5], [5.5, 8.0]],
+];
+const LENS: Line = &[
+    [11.5, 7.0],
+    [10.2, 10.2],
+    [7.0, 11.5],
+    [3.8, 10.2],
+    [2.5, 7.0],
+    [3.8, 3.8],
+    [7.0, 2.5],
+    [10.2, 3.8],
+    [11.5, 7.0],
+];
+const HANDLE: Line = &[[10.2, 10.2], [14.5, 14.5]];
+const MINUS: Line = &[[4.8, 7.0], [9.2, 7.0]];
+const ZOOM_IN: &[Line] = &[LENS, HANDLE, MINUS, &[[7.0, 4.8], [7.0, 9.2]]];
+const ZOOM_OUT: &[Line] = &[LENS, HANDLE, MINUS];
+const FIND: &[Line] = &[LENS, HANDLE];
+
+/// The lines of a command's icon; `None` if it has none.
+pub(super) fn lines(command: Command) -> Option<&'static [Line]> {
+    Some(match command {
+        Command::Open => OPEN,
+        Command::Save => SAVE,
+        Command::Undo => UNDO,
+        Command::Redo => REDO,
+        Command::ToolSelect => SELECT,
+        Command::ToolPoints => POINTS,
+        Command::ToolDraw => DRAW,
+        Command::ToolMeasure => MEASURE,
+        Command::ZoomToAll => ZOOM_TO_ALL,
+        Command::ZoomIn => ZOOM_IN,
+        Command::ZoomOut => ZOOM_OUT,
+        Command::Find => FIND,
+        _ => return None,
+    })
+}
+
+/// Paints the icon of a command into a square. Returns `false` if it has none.
+pub(super) fn paint(painter: &Painter, command: Command, square: Rect, stroke: Stroke) -> bool {
+    let Some(lines) = lines(command) else {
+        return false;
+    };
+    let side = square.width();
+    let at = |[x, y]: &[f32; 2]| -> Pos2 { square.min + Vec2::new(*x, *y) * (side / SIDE) };
+    let stroke = Stroke::new((LINE * side).max(1.0), stroke.color);
+    for line in lines {
+        painter.add(Shape::line(line.iter().map(at).collect(), stroke));
+    }
+    true
+}

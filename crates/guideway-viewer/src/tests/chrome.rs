@@ -1,0 +1,150 @@
+//! The parts around the canvas: toolbar, context menu, settings, what the window remembers.
+
+use std::path::Path;
+
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use super::services::{TestServices, lanes};
+use super::test_window::{TestWindow, has_notice};
+use crate::display_settings::ThemeChoice;
+use crate::tools::Tool;
+
+const NONE: Modifiers = Modifiers::NONE;
+
+fn right_click(window: &mut TestWindow, at: Pos2) {
+    window.harness.event(Event::PointerMoved(at));
+    window.harness.step();
+    for pressed in [true, false] {
+        window.harness.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: NONE,
+        });
+        window.harness.step();
+    }
+    window.harness.run_steps(3);
+}
+
+#[test]
+fn context_menu_acts_on_what_is_under_the_pointer() {
+    let mut window = TestWindow::showing(lanes(3));
+    let (path, node, empty) = (
+        window.at(5.0, 2.0),
+        window.at(10.0, 4.0),
+        window.at(5.0, 3.0),
+    );
+    right_click(&mut window, path);
+    assert_eq!(window.selected(), [1]);
+    window
+        .harness
+        .get_by_label_contains("Hide selection")
+        .click();
+    window.harness.run_steps(3);
+    assert_eq!(window.document().scene().hidden_count(), 1);
+    right_click(&mut window, node);
+    let nodes: Vec<u32> = window.document().selected().nodes.iter().collect();
+    assert_eq!(nodes.len(), 1, "the node at the end of lane 2");
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("Hide selection")
+            .is_none()
+    );
+    window.key(NONE, Key::Escape);
+    right_click(&mut window, empty);
+    window
+        .harness
+        .get_by_label_contains("Show all paths")
+        .click();
+    window.harness.run_steps(3);
+    assert_eq!(window.document().scene().hidden_count(), 0);
+}
+
+#[test]
+fn right_click_keeps_a_selection_that_it_is_in() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.key(Modifiers::COMMAND, Key::A);
+    let at = window.at(5.0, 2.0);
+    right_click(&mut window, at);
+    assert_eq!(window.selected(), [0, 1, 2]);
+}
+
+#[test]
+fn toolbar_selects_tools_and_greys_out_what_is_impossible() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.harness.get_by_label("Draw a path").click();
+    window.harness.run_steps(2);
+    assert_eq!(window.app().tools.tool(), Tool::Draw);
+    window.harness.get_by_label("Select and move").click();
+    window.harness.run_steps(2);
+    assert_eq!(window.app().tools.tool(), Tool::Select);
+    let is_possible = |window: &TestWindow| {
+        let button = window.harness.get_by_label("Undo");
+        !button.accesskit_node().is_disabled()
+    };
+    assert!(!is_possible(&window));
+    window.key(Modifiers::COMMAND, Key::A);
+    window.key(NONE, Key::R);
+    assert!(is_possible(&window));
+    window.harness.get_by_label("Undo").click();
+    window.harness.run_steps(3);
+    assert!(!window.document().is_changed());
+}
+
+#[test]
+fn settings_outlive_the_window() {
+    let folder = tempfile::tempdir().unwrap();
+    let open = || {
+        let disk = TestServices::with([("site.arrow", lanes(2))]);
+        *disk.state.lock().unwrap() = Some(folder.path().to_owned());
+        let mut window = TestWindow::open(&disk, &["site.arrow"], Some("cpu"));
+        window.wait(|app| app.document().is_some());
+        window
+    };
+    let mut window = open();
+    window.key(NONE, Key::A);
+    window.key(NONE, Key::B);
+    assert!(window.app().settings.is_dark);
+    window.app().settings.grid_step_m = Some(2.5);
+    window.harness.run_steps(2);
+    // As if the program had been killed: settings are written when they change.
+    drop(window);
+    let mut window = open();
+    let settings = window.app().settings.clone();
+    assert!(!settings.has_arrows && settings.is_dark);
+    assert_eq!(settings.theme, ThemeChoice::Dark);
+    assert_eq!(settings.grid_step_m, Some(2.5));
+    window.app().window_place.size = [777.0, 555.0];
+    window.app().leave();
+    let text = std::fs::read_to_string(folder.path().join("window.toml")).unwrap();
+    assert!(text.contains("777"), "{text}");
+    std::fs::write(folder.path().join("window.toml"), "theme = [").unwrap();
+    let mut window = open();
+    assert!(has_notice(window.app(), "window.toml"));
+    assert!(!window.app().settings.is_dark);
+    assert!(Path::new(folder.path()).join("recent-files").exists());
+}
+
+#[test]
+fn settings_dialog_changes_theme_and_grid() {
+    use crate::command::Command;
+    let mut window = TestWindow::showing(lanes(2));
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(Command::Settings, &ctx);
+    window.harness.run_steps(3);
+    window.harness.get_by_label("dark").click();
+    window.harness.run_steps(3);
+    assert!(window.app().settings.is_dark);
+    window.harness.get_by_label("every").click();
+    window.harness.run_steps(3);
+    assert_eq!(window.app().settings.grid_step_m, Some(1.0));
+    window.key(NONE, Key::Escape);
+    assert!(!window.app().dialogs.settings.is_open);
+    window.app().perform(Command::About, &ctx);
+    window.harness.run_steps(3);
+    let licenses = env!("CARGO_PKG_LICENSE");
+    let line = window.harness.query_by_label_contains(licenses);
+    assert!(line.is_some());
+}

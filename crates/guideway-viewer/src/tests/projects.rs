@@ -1,0 +1,96 @@
+//! Projects: what one window shows, another one opens again.
+
+use std::path::PathBuf;
+
+use eframe::egui::{Key, Modifiers};
+
+use super::services::{TestServices, lanes};
+use super::test_window::{TestWindow, has_notice};
+use crate::command::Command;
+use crate::services::FileAnswer;
+
+const NONE: Modifiers = Modifiers::NONE;
+
+/// A folder on disk, and the same names in memory.
+fn disk(folder: &std::path::Path) -> std::sync::Arc<TestServices> {
+    let disk = TestServices::with([]);
+    for (name, count) in [("a.arrow", 3), ("b.arrow", 5), ("plans/hall.png", 1)] {
+        let mut files = disk.files.lock().unwrap();
+        files.insert(folder.join(name), lanes(count));
+    }
+    disk
+}
+
+#[test]
+fn project_restores_files_view_plan_and_look() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk_of_first = disk(folder.path());
+    let names = ["a.arrow", "b.arrow"].map(|name| folder.path().join(name));
+    let names = names.each_ref().map(|name| name.to_str().unwrap());
+    let mut window = TestWindow::open(&disk_of_first, &names, Some("cpu"));
+    window.wait(|app| app.files.is_settled());
+    let app = window.app();
+    app.files.activate(0);
+    app.files.layers_mut()[1].is_visible = false;
+    app.settings.color_by = Some("speed".into());
+    app.settings.has_labels = false;
+    let context = app.context.clone();
+    let plan = folder.path().join("plans/hall.png");
+    let text = format!("{}@px-per-m=20,offset=1,2", plan.display());
+    app.floor_plan
+        .set(&text, &context.services, &context.repaint);
+    (app.floor_plan.opacity, app.floor_plan.is_locked) = (0.25, true);
+    window.key(NONE, Key::Plus);
+    window.key(NONE, Key::ArrowLeft);
+    let view = window.app().canvas.camera.view().unwrap();
+    let project: PathBuf = folder.path().join("hall");
+    let chosen = FileAnswer::Chosen(project);
+    disk_of_first.answers.lock().unwrap().push(chosen);
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(Command::SaveProject, &ctx);
+    window.wait(|app| has_notice(app, "Saved"));
+    drop(window);
+
+    let project = folder.path().join("hall.guideway-project.toml");
+    let text = std::fs::read_to_string(&project).unwrap();
+    assert!(text.contains("\"a.arrow\"") && text.contains("\"plans/hall.png\""));
+    let disk_of_second = disk(folder.path());
+    let launch = [project.to_str().unwrap()];
+    let mut window = TestWindow::open(&disk_of_second, &launch, Some("cpu"));
+    window.wait(|app| app.files.layers().len() == 2 && app.files.is_settled());
+    let app = window.app();
+    assert_eq!(app.files.active_index(), 0);
+    let shown: Vec<bool> = app.files.layers().iter().map(|l| l.is_visible).collect();
+    assert_eq!(shown, [true, false]);
+    assert_eq!(app.settings.color_by.as_deref(), Some("speed"));
+    assert!(!app.settings.has_labels);
+    let plan = &app.floor_plan;
+    assert!(
+        plan.text()
+            .ends_with("plans/hall.png@px-per-m=20,offset=1,2")
+    );
+    assert_eq!((plan.opacity, plan.is_locked), (0.25, true));
+    let restored = app.canvas.camera.view().unwrap();
+    assert_eq!(restored.px_per_m(), view.px_per_m());
+    assert!(restored.center_m().distance(view.center_m()) < 1e-9);
+}
+
+#[test]
+fn missing_files_are_named_and_the_rest_opens() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = folder.path().join("hall.guideway-project.toml");
+    let text = "version = 1\nactive = 1\n[[file]]\npath = \"gone.lif\"\n[[file]]\n\
+                path = \"b.arrow\"\n[floor-plan]\npath = \"gone.png\"\n";
+    std::fs::write(&project, text).unwrap();
+    let disk = disk(folder.path());
+    let mut window = TestWindow::open(&disk, &[project.to_str().unwrap()], Some("cpu"));
+    window.wait(|app| app.files.is_settled());
+    assert!(has_notice(window.app(), "gone.lif") && has_notice(window.app(), "gone.png"));
+    assert_eq!(window.document().layout().paths.len(), 5);
+    assert!(window.app().floor_plan.is_empty());
+    // A damaged project leaves the window as it is.
+    std::fs::write(&project, "version = 1\n[[file]]\npath = 7\n").unwrap();
+    window.app().open_any(project);
+    assert!(has_notice(window.app(), "line 3"));
+    assert_eq!(window.app().files.layers().len(), 1);
+}
