@@ -1,7 +1,8 @@
 //! Lengths and curvatures of paths.
 
 use guideway_layout::{PathRef, RunPoints};
-use guideway_spline::{run_length, segment_length, uniform};
+use guideway_spline::construct::{parameter_at_length, point_at};
+use guideway_spline::{Point, Runs, run_length, segment_length, uniform};
 
 /// Largest error of the length of a run, in meters: a tenth of a millimeter.
 const LENGTH_TOLERANCE_M: f64 = 1e-4;
@@ -13,6 +14,15 @@ pub fn length_m(path: PathRef<'_>) -> f64 {
         RunPoints::F32(points) => run_length(points, LENGTH_TOLERANCE_M),
     });
     runs.sum()
+}
+
+/// The point of a path halfway along its curve; `None` without a curve.
+pub fn middle_m(path: PathRef<'_>) -> Option<Point<f64>> {
+    let mut runs = Runs::default();
+    path.copy_runs(&mut runs);
+    let half_m = length_m(path) / 2.0;
+    let middle = parameter_at_length(&runs, half_m, LENGTH_TOLERANCE_M)?;
+    point_at(&runs, middle)
 }
 
 /// Curvature of a path at a place.

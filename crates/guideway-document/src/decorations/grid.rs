@@ -8,19 +8,34 @@ use super::style::DecorationStyle;
 
 /// Least distance between grid lines, in points.
 const MIN_SPACING_POINTS: f64 = 96.0;
+/// Least distance between the lines of a grid with a given step, in points.
+const DENSEST_POINTS: f64 = 8.0;
 /// Most lines along each axis: a bound for pictures of any size.
 const MAX_LINES: usize = 1000;
 /// Opacity of grid lines: visible, and fainter than any path.
 const OPACITY: f64 = 0.12;
 
-/// The grid of a view: lines one point wide, 1, 2 or 5 times a power of ten meters apart.
+/// Distance of the grid lines of a view in meters: 1, 2 or 5 times a power of ten.
+pub fn grid_step_m(view: &View, px_per_point: f64) -> f64 {
+    round_step(MIN_SPACING_POINTS * px_per_point / view.px_per_m())
+}
+
+/// The grid of a view: lines one point wide, [`grid_step_m`] apart.
 pub fn grid(view: &View, style: &DecorationStyle) -> DrawList {
+    grid_with_step(view, style, grid_step_m(view, style.px_per_point))
+}
+
+/// A grid with lines one point wide, `step_m` apart; only each tenth one, or each hundredth and so
+/// on, where more would be too dense.
+pub fn grid_with_step(view: &View, style: &DecorationStyle, step_m: f64) -> DrawList {
     let mut list = DrawList::default();
     let color = style.ink.with_opacity(OPACITY);
     let half_px = style.px_per_point / 2.0;
     let size = view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
-    let [x_px, y_px] = line_positions(view, MIN_SPACING_POINTS * style.px_per_point);
+    let least_m = DENSEST_POINTS * style.px_per_point / view.px_per_m();
+    let tenfold = (least_m / step_m).log10().ceil().max(0.0);
+    let [x_px, y_px] = line_positions(view, step_m * 10f64.powf(tenfold));
     for x in x_px {
         let (left, right) = (x - half_px, x + half_px);
         list.fill_rectangle(color, Point::new(left, 0.0), Point::new(right, height));
@@ -32,10 +47,9 @@ pub fn grid(view: &View, style: &DecorationStyle) -> DrawList {
     list
 }
 
-/// Pixel positions of the vertical lines along x and of the horizontal lines along y, at least
-/// `min_px` apart.
-fn line_positions(view: &View, min_px: f64) -> [Vec<f64>; 2] {
-    let step_m = round_step(min_px / view.px_per_m());
+/// Pixel positions of the vertical lines along x and of the horizontal lines along y, `step_m`
+/// apart.
+fn line_positions(view: &View, step_m: f64) -> [Vec<f64>; 2] {
     let visible = view.world_bounds();
     let lines = |from_m: f64, to_m: f64| {
         let (first, last) = ((from_m / step_m).ceil(), (to_m / step_m).floor());
@@ -64,11 +78,28 @@ mod tests {
     fn lines_are_at_round_coordinates() {
         let size = FrameSize::new(400, 300).unwrap();
         let view = View::new(size, Point::new(3.0, -2.0), 20.0).unwrap();
-        let [x_px, y_px] = line_positions(&view, 96.0);
+        let [x_px, y_px] = line_positions(&view, grid_step_m(&view, 1.0));
         let meters = |x, y| view.world_from_pixel(Point::new(x, y));
         let xs: Vec<_> = x_px.iter().map(|&x| meters(x, 0.0).x.round()).collect();
         let ys: Vec<_> = y_px.iter().map(|&y| meters(0.0, y).y.round()).collect();
         assert_eq!((xs, ys), (vec![-5.0, 0.0, 5.0, 10.0], vec![-5.0, 0.0, 5.0]));
+    }
+
+    #[test]
+    fn dense_grid_shows_each_tenth_line() {
+        let size = FrameSize::new(400, 300).unwrap();
+        let view = View::new(size, Point::new(0.0, 0.0), 20.0).unwrap();
+        let style = DecorationStyle::new(Rgba::WHITE, 1.0);
+        let lines = |step_m| {
+            let list = grid_with_step(&view, &style, step_m);
+            list.fills
+                .iter()
+                .map(|fill| fill.polygons.len())
+                .sum::<usize>()
+        };
+        // 20 m x 15 m are in view.
+        assert_eq!(lines(1.0), 21 + 15);
+        assert_eq!(lines(0.1), lines(1.0));
     }
 
     #[test]

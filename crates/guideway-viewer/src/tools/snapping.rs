@@ -35,10 +35,11 @@ pub(super) fn snap_point(
     let snap = SnapOptions {
         node_reach_m: Some(context.hit_radius_m()),
         moving_node,
+        object_reach_m: None,
         grid_m: to_grid.then(|| grid_step_m(&context.view)),
         directions: modifiers.shift.then_some(DIRECTIONS),
     };
-    document.snap(&snap, at_m, from_m)
+    document.snap(&snap, at_m, from_m).at_m
 }
 
 /// The node near `at_m`, unless Alt turns snapping off.
@@ -67,7 +68,9 @@ pub(super) fn snap_move(
         directions: modifiers.shift.then_some(DIRECTIONS),
         ..SnapOptions::default()
     };
-    document.snap(&snap, by_m, Some(Point::new(0.0, 0.0)))
+    document
+        .snap(&snap, by_m, Some(Point::new(0.0, 0.0)))
+        .at_m
 }
 
 /// Distance of snap grid lines: a round number of meters, at least [`MIN_GRID_PX`] on screen.
