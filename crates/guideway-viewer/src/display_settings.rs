@@ -1,6 +1,6 @@
 //! Display settings: colors, line widths, and the decorations that are shown, for all files alike.
 
-use guideway_document::decorations::{DecorationStyle, MarkOptions, grid};
+use guideway_document::decorations::{DecorationStyle, MarkOptions, grid_step_m, grid_with_step};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, Style, View};
 
@@ -20,6 +20,8 @@ pub(crate) struct DisplaySettings {
     pub(crate) has_symbols: bool,
     pub(crate) has_labels: bool,
     pub(crate) has_grid: bool,
+    /// Distance of grid lines in meters; `None` follows the scale.
+    pub(crate) grid_step_m: Option<f64>,
 }
 
 impl Default for DisplaySettings {
@@ -35,6 +37,7 @@ impl Default for DisplaySettings {
             has_symbols: true,
             has_labels: true,
             has_grid: true,
+            grid_step_m: None,
         }
     }
 }
@@ -77,9 +80,18 @@ impl DisplaySettings {
     /// The grid of a view; empty if it is off.
     pub(crate) fn grid(&self, view: &View, px_per_point: f64) -> DrawList {
         match self.has_grid {
-            true => grid(view, &self.decoration_style(px_per_point)),
+            true => {
+                let style = self.decoration_style(px_per_point);
+                grid_with_step(view, &style, self.grid_step_m(view, px_per_point))
+            }
             false => DrawList::default(),
         }
+    }
+
+    /// Distance of the grid lines of a view, in meters: points snap to the lines that are shown.
+    pub(crate) fn grid_step_m(&self, view: &View, px_per_point: f64) -> f64 {
+        self.grid_step_m
+            .unwrap_or_else(|| grid_step_m(view, px_per_point))
     }
 
     /// The options that scenes are made with.

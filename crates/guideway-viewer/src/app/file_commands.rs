@@ -105,6 +105,10 @@ impl App {
             return;
         };
         let path = layer.path().to_owned();
+        if layer.save.is_new() {
+            let prompt = &mut self.dialogs.prompt;
+            return prompt.ask(PromptKind::SaveAs, Some(&path));
+        }
         // A file written by this window holds no more than the layout.
         let unwritten = layer.document().filter(|_| !layer.save.is_written());
         let services = &self.context.services;
@@ -126,8 +130,12 @@ impl App {
         };
         let on_disk = self.context.services.file_stamp(&path);
         let risk = match layer.is_at(&path) {
-            true if layer.save.is_changed_by_others(on_disk) => Some(Risk::OverwritesChanges),
-            false if on_disk.is_some() => Some(Risk::ReplacesFile(Command::SaveAs)),
+            true if !layer.save.is_new() && layer.save.is_changed_by_others(on_disk) => {
+                Some(Risk::OverwritesChanges)
+            }
+            is_own if on_disk.is_some() && (!is_own || layer.save.is_new()) => {
+                Some(Risk::ReplacesFile(Command::SaveAs))
+            }
             _ => None,
         };
         match risk {

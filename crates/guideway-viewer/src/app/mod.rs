@@ -6,8 +6,10 @@
 //! | frame | results of threads, input of egui | shown parts, actions | `frame` |
 //! | input | keys and pointer events, in order | commands, events of the tools | `input` |
 //! | route | action, command, pointer event | calls of the owning part | `routing` |
+//! | drawing | keys, texts, commands | new layouts, typed points, pasted and arranged elements | `drawing` |
 //! | file commands | paths | loads, saves, exports | `file_commands` |
 
+mod drawing;
 mod file_commands;
 mod frame;
 mod input;

@@ -12,7 +12,6 @@ use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::files::{LayerEvent, OpenFiles};
 use crate::panels::dialogs::PromptKind;
-use crate::selection::selection_command;
 use crate::tools::{PointerEvent, Tool, ToolContext, ToolEffect};
 
 /// Distance of one key press of a pan command, in pixels.
@@ -83,6 +82,7 @@ impl App {
             app.dialogs.prompt.ask(kind, file);
         };
         match command {
+            Command::NewLayout => self.new_layout(),
             Command::Open => prompt(self, PromptKind::Open),
             Command::OpenRecent => self.dialogs.recent.open(self.files.recent().files()),
             Command::Reload => self.request_reload(),
@@ -117,18 +117,41 @@ impl App {
             | Command::Hide
             | Command::Isolate
             | Command::ShowAll => self.edit_selection(command),
+            Command::Cut => self.copy_elements(true, ctx),
+            Command::Copy => self.copy_elements(false, ctx),
+            Command::Paste => self.paste_elements(),
+            Command::Array
+            | Command::Rename
+            | Command::MoveToLevel
+            | Command::Fillet
+            | Command::Split
+            | Command::SplitCrossings
+            | Command::Join
+            | Command::Weld
+            | Command::Reverse
+            | Command::OneWay
+            | Command::TwoWay
+            | Command::Straighten
+            | Command::AlignX
+            | Command::AlignY
+            | Command::Distribute => self.arrange(command, ctx),
             Command::ToolSelect => self.tools.select(Tool::Select),
             Command::ToolPoints => self.tools.select(Tool::Points),
-            Command::ToolDraw => self.tools.select(Tool::Draw),
+            Command::ToolLine => self.tools.select(Tool::Line),
+            Command::ToolArc => self.tools.select(Tool::Arc),
+            Command::ToolCurve => self.tools.select(Tool::Curve),
+            Command::ToolNode => self.tools.select(Tool::Node),
+            Command::ToolStation => self.tools.select(Tool::Station),
             Command::ToolMeasure => self.tools.select(Tool::Measure),
+            Command::PanLeft | Command::PanRight | Command::PanUp | Command::PanDown => {
+                if !self.nudge(command) {
+                    self.move_camera(command);
+                }
+            }
             Command::ZoomToAll
             | Command::ZoomToSelection
             | Command::ZoomIn
             | Command::ZoomOut
-            | Command::PanLeft
-            | Command::PanRight
-            | Command::PanUp
-            | Command::PanDown
             | Command::Back
             | Command::Forward => self.move_camera(command),
             Command::Arrows => settings.has_arrows ^= true,
@@ -143,15 +166,6 @@ impl App {
                 self.apply_theme(ctx);
                 self.recolor();
             }
-        }
-    }
-
-    /// Edits the selection, or takes a step of the history. What a drag has done so far stays.
-    fn edit_selection(&mut self, command: Command) {
-        self.tools.abort_drag();
-        let view = self.canvas.camera.view();
-        if let Some(task) = selection_command(command, view.as_ref()) {
-            self.edit(task);
         }
     }
 
@@ -256,9 +270,10 @@ impl App {
         }
     }
 
-    fn apply_effect(&mut self, effect: Option<ToolEffect>) {
+    pub(super) fn apply_effect(&mut self, effect: Option<ToolEffect>) {
         match effect {
             Some(ToolEffect::Edit(task)) => self.edit(task),
+            Some(ToolEffect::Refused(why)) => self.dialogs.notices.add(why),
             Some(ToolEffect::ExpectEdit) => {
                 if let Some(layer) = self.files.active_mut() {
                     layer.slot.expect_edit(&self.context.repaint);
@@ -310,16 +325,18 @@ impl App {
 }
 
 /// The input of the tools; `None` while the canvas has no size.
-fn tool_context<'a>(
+pub(super) fn tool_context<'a>(
     files: &'a OpenFiles,
     canvas: &Canvas,
     settings: &DisplaySettings,
 ) -> Option<ToolContext<'a>> {
+    let view = canvas.camera.view()?;
     Some(ToolContext {
-        view: canvas.camera.view()?,
+        view,
         document: files.document(),
         line_rule: settings.line_rule(),
         picks_symbols: settings.has_symbols,
+        grid_step_m: settings.grid_step_m(&view, canvas.px_per_point()),
     })
 }
 

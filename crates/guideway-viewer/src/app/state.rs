@@ -14,9 +14,9 @@ use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::panels::dialogs::Dialogs;
-use crate::panels::{FindingsPanel, PropertiesPanel};
+use crate::panels::{FindingsPanel, NewEdgesPanel, PropertiesPanel};
 use crate::render_queue::MethodSelection;
-use crate::selection::{ExactEdit, Find};
+use crate::selection::{CopiedElements, ExactEdit, Find};
 use crate::services::AppServices;
 use crate::tools::Tools;
 
@@ -39,6 +39,9 @@ pub(crate) struct App {
     pub(crate) exact_edit: ExactEdit,
     pub(crate) findings: FindingsPanel,
     pub(crate) properties: PropertiesPanel,
+    pub(crate) new_edges: NewEdgesPanel,
+    /// Elements to paste.
+    pub(crate) copied: Option<CopiedElements>,
     pub(crate) dialogs: Dialogs,
     pub(crate) writer: FileWriter,
     pub(crate) clipboard: Clipboard,
@@ -71,6 +74,8 @@ impl App {
             exact_edit: ExactEdit::default(),
             findings: FindingsPanel::default(),
             properties: PropertiesPanel::default(),
+            new_edges: NewEdgesPanel::default(),
+            copied: None,
             dialogs: Dialogs::default(),
             writer: FileWriter::default(),
             clipboard: Clipboard::default(),

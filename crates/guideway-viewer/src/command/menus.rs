@@ -10,11 +10,11 @@ pub(crate) struct Menu {
 }
 
 /// The menus, from left to right.
-pub(crate) const MENUS: [Menu; 6] = [
+pub(crate) const MENUS: [Menu; 7] = [
     Menu {
         name: "File",
         groups: &[
-            &[Open, OpenRecent, Reload],
+            &[NewLayout, Open, OpenRecent, Reload],
             &[Save, SaveAs],
             &[ExportPng, ExportSvg, CopyPicture],
             &[FloorPlan],
@@ -25,10 +25,19 @@ pub(crate) const MENUS: [Menu; 6] = [
         name: "Edit",
         groups: &[
             &[Undo, Redo],
+            &[Cut, Copy, Paste, Duplicate, Array, Delete],
             &[SelectAll, Deselect, Find],
-            &[Duplicate, Delete],
+            &[Rename, MoveToLevel],
             &[RotateLeft, FlipHorizontal, FlipVertical],
             &[Refine],
+        ],
+    },
+    Menu {
+        name: "Arrange",
+        groups: &[
+            &[Fillet, Split, SplitCrossings, Join, Weld],
+            &[Reverse, OneWay, TwoWay],
+            &[Straighten, AlignX, AlignY, Distribute],
         ],
     },
     Menu {
@@ -51,7 +60,8 @@ pub(crate) const MENUS: [Menu; 6] = [
     Menu {
         name: "Tool",
         groups: &[
-            &[ToolSelect, ToolPoints, ToolDraw, ToolMeasure],
+            &[ToolSelect, ToolPoints, ToolMeasure],
+            &[ToolLine, ToolArc, ToolCurve, ToolNode, ToolStation],
             &[FinishPath, Cancel],
         ],
     },

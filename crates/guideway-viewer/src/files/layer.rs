@@ -55,7 +55,20 @@ impl Layer {
         options: SceneOptions,
         context: &LayerContext,
     ) -> Self {
-        let mut layer = Self {
+        let mut layer = Self::without_document(path, method, &options, context);
+        layer.keeps_journal = context.services.keeps_journals();
+        layer.load(None, options, context);
+        layer
+    }
+
+    /// A layer with a render thread that shows nothing yet.
+    pub(super) fn without_document(
+        path: PathBuf,
+        method: &str,
+        options: &SceneOptions,
+        context: &LayerContext,
+    ) -> Self {
+        Self {
             picture: LayerPicture::start(&context.services, method, &context.repaint),
             path,
             is_visible: true,
@@ -65,10 +78,8 @@ impl Layer {
             error: None,
             loader: None,
             owes_scene: false,
-            keeps_journal: context.services.keeps_journals(),
-        };
-        layer.load(None, options, context);
-        layer
+            keeps_journal: false,
+        }
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -331,7 +342,7 @@ impl Layer {
     }
 
     /// Puts a loaded document in place, unless the present one has changes to keep.
-    fn take_document(
+    pub(super) fn take_document(
         &mut self,
         mut document: Document,
         done: Option<ReplayProgress>,

@@ -14,6 +14,7 @@ mod layer;
 mod layer_context;
 mod layer_event;
 mod loader;
+mod new_layout;
 mod open_files;
 mod recent_files;
 mod save_state;

@@ -21,7 +21,7 @@ pub(crate) struct OpenFiles {
     watcher: Watcher,
     /// True if the watcher's list is outdated.
     is_watch_outdated: bool,
-    context: LayerContext,
+    pub(super) context: LayerContext,
 }
 
 impl OpenFiles {
@@ -112,6 +112,11 @@ impl OpenFiles {
             return;
         }
         let layer = Layer::open(path, method, options, &self.context);
+        self.add(layer);
+    }
+
+    /// Adds a file, and edits it from now on.
+    pub(super) fn add(&mut self, layer: Layer) {
         self.layers.push(layer);
         self.active = self.layers.len() - 1;
         self.is_watch_outdated = true;
@@ -179,7 +184,8 @@ impl OpenFiles {
     /// Reloads files that other programs changed. Returns notices for the user.
     pub(crate) fn poll_watcher(&mut self, options: &SceneOptions) -> Vec<String> {
         if std::mem::take(&mut self.is_watch_outdated) {
-            let paths = self.layers.iter().map(|layer| layer.path().to_owned());
+            let on_disk = self.layers.iter().filter(|layer| !layer.save.is_new());
+            let paths = on_disk.map(|layer| layer.path().to_owned());
             self.watcher.set_files(paths.collect());
         }
         let mut notices = Vec::new();

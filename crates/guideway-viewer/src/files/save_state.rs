@@ -16,6 +16,8 @@ pub(crate) struct SaveState {
     drops_changes: bool,
     /// True if this window saved the file since it was read.
     is_written: bool,
+    /// True if the layout was never saved, so that it has no file.
+    is_new: bool,
     /// State of the file that the document stands for: as it was read or saved here.
     known: Stamp,
     /// State of the file at the start of the load in progress.
@@ -30,6 +32,16 @@ impl SaveState {
     /// Returns `true` if this window saved the file since it was read.
     pub(crate) fn is_written(&self) -> bool {
         self.is_written
+    }
+
+    /// Returns `true` if the layout has no file yet.
+    pub(crate) fn is_new(&self) -> bool {
+        self.is_new
+    }
+
+    /// The layout is new.
+    pub(super) fn begin_new(&mut self) {
+        self.is_new = true;
     }
 
     pub(super) fn drops_changes(&self) -> bool {
@@ -92,7 +104,7 @@ impl SaveState {
         self.is_saving = false;
         match saved_as {
             Some(path) => {
-                (self.is_written, self.known) = (true, state);
+                (self.is_written, self.known, self.is_new) = (true, state, false);
                 EditTask::with_journal(move |_, journal| journal.complete_save(&path))
             }
             None => EditTask::with_journal(|document, journal| {

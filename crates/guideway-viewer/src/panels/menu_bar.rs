@@ -37,7 +37,11 @@ impl MenuBar<'_> {
             for (tool, name) in [
                 (Tool::Select, "Select"),
                 (Tool::Points, "Points"),
-                (Tool::Draw, "Draw"),
+                (Tool::Line, "Line"),
+                (Tool::Arc, "Arc"),
+                (Tool::Curve, "Curve"),
+                (Tool::Node, "Node"),
+                (Tool::Station, "Station"),
                 (Tool::Measure, "Measure"),
             ] {
                 if ui.selectable_label(self.tool == tool, name).clicked() {
@@ -107,8 +111,8 @@ impl MenuBar<'_> {
             Command::Redo => redo.is_some(),
             Command::ShowAll => document.scene().hidden_count() > 0,
             Command::NextFile => self.files.layers().len() > 1,
-            Command::FinishPath => self.tool == Tool::Draw,
-            command if needs_selection(command) => !document.selection().is_empty(),
+            Command::FinishPath => self.tool.curve().is_some(),
+            command if needs_selection(command) => !document.selected().is_empty(),
             _ => true,
         }
     }
@@ -126,7 +130,11 @@ impl MenuBar<'_> {
             Command::SweptAreas => self.has_swept_areas,
             Command::ToolSelect => self.tool == Tool::Select,
             Command::ToolPoints => self.tool == Tool::Points,
-            Command::ToolDraw => self.tool == Tool::Draw,
+            Command::ToolLine => self.tool == Tool::Line,
+            Command::ToolArc => self.tool == Tool::Arc,
+            Command::ToolCurve => self.tool == Tool::Curve,
+            Command::ToolNode => self.tool == Tool::Node,
+            Command::ToolStation => self.tool == Tool::Station,
             Command::ToolMeasure => self.tool == Tool::Measure,
             _ => false,
         }
@@ -146,6 +154,23 @@ fn needs_selection(command: Command) -> bool {
             | Command::ZoomToSelection
             | Command::Hide
             | Command::Isolate
+            | Command::Cut
+            | Command::Copy
+            | Command::Array
+            | Command::Rename
+            | Command::MoveToLevel
+            | Command::Fillet
+            | Command::Split
+            | Command::SplitCrossings
+            | Command::Join
+            | Command::Weld
+            | Command::Reverse
+            | Command::OneWay
+            | Command::TwoWay
+            | Command::Straighten
+            | Command::AlignX
+            | Command::AlignY
+            | Command::Distribute
     )
 }
 
@@ -167,6 +192,7 @@ fn needs_file(command: Command) -> bool {
                 | Command::NextFile
                 | Command::ShowAll
                 | Command::FinishPath
+                | Command::Paste
         )
 }
 

@@ -1,10 +1,14 @@
 //! Tests that drive the whole application by mouse and keys, without a window.
 
+mod arranging;
 mod background;
 mod content;
 mod drag;
+mod drawing;
 mod files;
 mod findings;
+mod first_layout;
+mod levels;
 mod methods;
 mod properties;
 mod random_input;

@@ -7,6 +7,7 @@ mod prompt;
 mod recent_dialog;
 mod recover_dialog;
 mod shortcuts_window;
+mod text_dialog;
 
 use eframe::egui::Context;
 
@@ -16,6 +17,7 @@ pub(crate) use notices::Notices;
 pub(crate) use prompt::{Prompt, PromptKind};
 pub(crate) use recent_dialog::RecentDialog;
 pub(crate) use shortcuts_window::ShortcutsWindow;
+pub(crate) use text_dialog::TextDialog;
 
 use crate::action::Action;
 use crate::files::OpenFiles;
@@ -24,6 +26,7 @@ use crate::files::OpenFiles;
 #[derive(Default)]
 pub(crate) struct Dialogs {
     pub(crate) prompt: Prompt,
+    pub(crate) text: TextDialog,
     pub(crate) recent: RecentDialog,
     pub(crate) leave: LeaveDialog,
     pub(crate) confirm: ConfirmDialog,
@@ -36,11 +39,13 @@ impl Dialogs {
     /// none.
     pub(crate) fn close(&mut self) -> bool {
         let is_open = self.prompt.is_open()
+            || self.text.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
             || self.shortcuts.is_open;
         self.prompt.close();
+        self.text.close();
         self.recent.close();
         self.leave.close();
         self.confirm.close();
@@ -51,6 +56,7 @@ impl Dialogs {
     /// Returns `true` if a dialog waits for an answer: until then keys do nothing else.
     pub(crate) fn is_modal(&self, files: &OpenFiles) -> bool {
         self.prompt.is_open()
+            || self.text.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -61,6 +67,7 @@ impl Dialogs {
     pub(crate) fn show(&mut self, ctx: &Context, files: &OpenFiles) -> Vec<Action> {
         let mut actions = Vec::new();
         actions.extend(self.prompt.show(ctx));
+        actions.extend(self.text.show(ctx));
         actions.extend(self.recent.show(ctx));
         actions.extend(self.leave.show(ctx, files));
         actions.extend(self.confirm.show(ctx));
