@@ -50,11 +50,17 @@ impl App {
         match event {
             Event::Text(text) => self.files.active().is_some() && self.tools.type_text(text),
             Event::Paste(text) if self.tools.typed().is_some() => self.tools.type_text(text),
-            Event::Copy => self.perform_taken(Command::Copy, ctx),
-            Event::Cut => self.perform_taken(Command::Cut, ctx),
+            // Without selected elements, a text of a panel may be meant.
+            Event::Copy if self.has_selection() => self.perform_taken(Command::Copy, ctx),
+            Event::Cut if self.has_selection() => self.perform_taken(Command::Cut, ctx),
             Event::Paste(_) => self.perform_taken(Command::Paste, ctx),
             _ => false,
         }
+    }
+
+    fn has_selection(&self) -> bool {
+        let document = self.files.document();
+        document.is_some_and(|document| !document.selected().is_empty())
     }
 
     fn perform_taken(&mut self, command: Command, ctx: &Context) -> bool {
@@ -67,7 +73,7 @@ impl App {
         let Some(layer) = self.files.active() else {
             return;
         };
-        let Some(document) = layer.document().filter(|d| !d.selected().is_empty()) else {
+        let Some(document) = layer.document().filter(|_| self.has_selection()) else {
             return;
         };
         let selected = document.selected();
@@ -131,11 +137,10 @@ impl App {
     /// Moves the selection by one step of the grid in the direction of an arrow key. Returns
     /// `false` if nothing is selected.
     pub(super) fn nudge(&mut self, command: Command) -> bool {
-        let has_selection = |document: &Document| !document.selected().is_empty();
         let Some(view) = self.canvas.camera.view() else {
             return false;
         };
-        if self.tools.tool().adds_points() || !self.files.document().is_some_and(has_selection) {
+        if self.tools.tool().adds_points() || !self.has_selection() {
             return false;
         }
         let step_m = self.settings.grid_step_m(&view, self.canvas.px_per_point());

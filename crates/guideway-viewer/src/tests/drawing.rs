@@ -216,17 +216,30 @@ fn points_snap_to_places_of_paths_and_alt_suspends_it() {
     let far = window.at(5.0, 1.1);
     window.click(far);
     window.key(NONE, Key::Enter);
-    let starts = |window: &mut TestWindow, row: usize| {
-        window.document().layout().paths.get(row).ends().unwrap().0
-    };
-    assert!(
-        starts(&mut window, 2).distance(Point::new(5.0, 0.0)) < 1e-3,
-        "the middle"
-    );
+    let middle = Point::new(5.0, 0.0);
+    let node = window.document().node_near(middle, 1e-3);
+    assert!(node.is_some(), "a node at the middle");
+    // The lane is split there, so that the new path is connected.
+    let at_node = window.document().index().paths_at(node.unwrap());
+    assert_eq!(at_node.count(), 3);
+    for _ in 0..2 {
+        window.key(CTRL, Key::Z);
+    }
+    assert!(!window.document().is_changed());
     window.click_with(near, Modifiers::ALT);
     window.click_with(far, Modifiers::ALT);
     window.key(NONE, Key::Enter);
-    assert!(starts(&mut window, 3).y > 0.02, "the pointer itself");
+    assert_eq!(
+        window.document().node_near(middle, 1e-3),
+        None,
+        "the pointer itself"
+    );
+    assert!(
+        window
+            .document()
+            .node_near(Point::new(5.0, 0.05), 0.03)
+            .is_some()
+    );
 }
 
 #[test]

@@ -12,6 +12,8 @@ use crate::editing::EditTask;
 
 /// Points of an arc: start, end, and one between.
 const ARC_POINTS: usize = 3;
+/// Distance within which a point is at a node, in meters.
+const ON_NODE_M: f64 = 1e-3;
 
 impl Tools {
     /// Adds the place of a click or a typed place: a point of a path, a node or a station.
@@ -69,6 +71,12 @@ impl Tools {
         }
         (self.gesture, self.typed) = (Gesture::None, None);
         ToolEffect::Edit(EditTask::edit(move |document: &mut Document| {
+            // A path that begins or ends on another one is connected to it.
+            for end_m in drawing.ends_m() {
+                if document.node_near(end_m, ON_NODE_M).is_none() {
+                    document.split_shown_at(end_m)?;
+                }
+            }
             document.draw(&drawing).map(drop).map_err(UserError::from)
         }))
     }

@@ -1,18 +1,15 @@
 //! The tools that create nodes and stations, one per click.
 
-use guideway_document::{
-    Document, Element, Elements, PathSet, SelectMode, ShapeError, SnapTarget, Snapped,
-};
+use guideway_document::{Document, Element, Elements, SelectMode, ShapeError, SnapTarget, Snapped};
 use guideway_layout::UserError;
-use guideway_spline::Bounds;
 
 use super::tool::Tool;
 use super::tool_context::ToolContext;
 use super::tool_set::{ToolEffect, Tools};
 use crate::editing::EditTask;
 
-/// Greatest distance of a path from the place at which it is split, in meters.
-const ON_PATH_M: f64 = 1e-3;
+/// Distance within which a typed place is at a node, in meters.
+const ON_NODE_M: f64 = 1e-3;
 /// Distance of the pointer within which a node is meant to be on a path, in pixels.
 const ON_PATH_PX: f64 = 4.0;
 
@@ -35,7 +32,7 @@ impl Tools {
 fn node_at(document: &Document, place: Snapped) -> Option<u32> {
     match place.to {
         Some(SnapTarget::Node(node)) => Some(node),
-        _ => document.node_near(place.at_m, ON_PATH_M),
+        _ => document.node_near(place.at_m, ON_NODE_M),
     }
 }
 
@@ -69,20 +66,6 @@ fn create_node(
         let node = node.map_err(ShapeError::from)?;
         return Ok(Elements::of(Element::Node(node)));
     };
-    let spot = Bounds {
-        min: hit.point_m,
-        max: hit.point_m,
-    };
-    let near = document.index().paths_in(spot.inflated(ON_PATH_M));
-    let level = document.layout().paths.get(hit.path as usize).level();
-    let is_split = |row: &u32| {
-        document.contains(Element::Path(*row))
-            && document.layout().paths.get(*row as usize).level() == level
-    };
-    let paths: PathSet = near.filter(is_split).collect();
-    let nodes = document.split_at(&paths, hit.point_m, ON_PATH_M)?;
-    Ok(Elements {
-        nodes: nodes.into_iter().collect(),
-        ..Elements::default()
-    })
+    let node = document.split_shown_at(hit.point_m)?;
+    Ok(node.map_or_else(Elements::default, |node| Elements::of(Element::Node(node))))
 }

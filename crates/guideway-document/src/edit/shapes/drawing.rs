@@ -53,6 +53,25 @@ pub struct Drawing {
     pub template: EdgeTemplate,
 }
 
+impl Drawing {
+    /// The points at which paths begin and end, in meters.
+    pub fn ends_m(&self) -> Vec<Point<f64>> {
+        let points = &self.points_m;
+        match self.curve {
+            DrawnCurve::Lines => points.clone(),
+            DrawnCurve::Arc | DrawnCurve::ArcOfRadius(_) => {
+                points.iter().take(2).copied().collect()
+            }
+            DrawnCurve::Smooth => points
+                .first()
+                .into_iter()
+                .chain(points.last())
+                .copied()
+                .collect(),
+        }
+    }
+}
+
 /// Places where paths begin and end, and the curves between consecutive ones.
 struct Track {
     places: Vec<Place>,

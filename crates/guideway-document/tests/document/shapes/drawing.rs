@@ -68,6 +68,29 @@ fn lines_make_a_node_per_point_and_close_at_a_point_of_their_own() {
 }
 
 #[test]
+fn paths_are_split_where_a_drawn_one_meets_them() {
+    let mut document = empty();
+    let lines = [p(0.0, 0.0), p(10.0, 0.0)];
+    document.draw(&drawing(&lines, DrawnCurve::Lines)).unwrap();
+    document
+        .draw(&drawing(&[p(4.0, -3.0), p(4.0, 3.0)], DrawnCurve::Lines))
+        .unwrap();
+    assert_eq!(document.split_shown_at(p(7.0, 1.0)).unwrap(), None);
+    assert_eq!(
+        document.split_shown_at(p(10.0, 0.0)).unwrap(),
+        None,
+        "its end"
+    );
+    let node = document.split_shown_at(p(4.0, 0.0)).unwrap().unwrap();
+    assert_eq!(document.existing(Table::Paths).count(), 4, "both paths");
+    assert_eq!(document.index().paths_at(node).count(), 4);
+    let spur = drawing(&[p(4.0, 0.0), p(6.0, 2.0)], DrawnCurve::Smooth);
+    assert_eq!(spur.ends_m(), [p(4.0, 0.0), p(6.0, 2.0)]);
+    document.draw(&spur).unwrap();
+    assert_eq!(document.index().paths_at(node).count(), 5);
+}
+
+#[test]
 fn arcs_lead_through_a_point_have_a_radius_or_continue_a_path() {
     let mut document = empty();
     let through = [p(0.0, 0.0), p(2.0, 0.0), p(1.0, -1.0)];
