@@ -24,6 +24,8 @@ pub struct Document {
     pub(crate) index: Index,
     /// Shared with the undo steps, most of which do not change it.
     pub(crate) selection: Arc<Elements>,
+    /// The only level that is shown; `None` shows all.
+    pub(crate) level: Option<u32>,
     pub(crate) history: History,
     pub(crate) observer: EditObserver,
     /// Entries since the last [`Document::take_journal_entries`].
@@ -47,6 +49,7 @@ impl Document {
             index: Index::new(scene.layout()),
             scene,
             selection: Arc::default(),
+            level: None,
             history: History::default(),
             observer: EditObserver::default(),
             journal_entries: Vec::new(),
@@ -62,6 +65,17 @@ impl Document {
     /// The layout, with the rows of removed elements; see [`Scene::exists`].
     pub fn layout(&self) -> &Layout {
         self.scene.layout()
+    }
+
+    /// The only level that is shown; `None` shows all. See [`Self::show_level`].
+    pub fn level(&self) -> Option<u32> {
+        self.level
+    }
+
+    /// Returns `true` if elements of a level are shown. Elements without a level belong to all.
+    pub fn shows_level(&self, level: Option<u32>) -> bool {
+        let is_here = level.is_none() || self.level.is_none() || level == self.level;
+        is_here && self.scene.shows_level(level)
     }
 
     /// The spatial index of paths and nodes.

@@ -38,8 +38,8 @@ mod view_history;
 pub use change::{Change, NodeMoves};
 pub use document::Document;
 pub use edit::{
-    AlignTo, Clip, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, Shape, ShapeError,
-    Welded, drawn_path,
+    AlignTo, Clip, Drawing, DrawnCurve, EdgeTemplate, Neighbors, NewEdge, OperationError, PointRef,
+    PropertyRef, Shape, ShapeError, Welded, drawn_path,
 };
 pub use element::Element;
 pub use elements::Elements;
@@ -53,6 +53,6 @@ pub use reverse_pairs::ReversePairs;
 pub use roaring::RoaringBitmap as PathSet;
 pub use search::search;
 pub use selection::SelectMode;
-pub use snap::SnapOptions;
+pub use snap::{SnapOptions, SnapTarget, Snapped};
 pub use snapshot::Snapshot;
 pub use view_history::ViewHistory;

@@ -102,25 +102,31 @@ impl Document {
         self.set_visibility(others.into_iter(), PathState::Hidden);
     }
 
-    /// Shows only the paths of a level; `None` shows all levels.
+    /// Shows only what is on a level or on none; `None` shows all levels. Shows the hidden paths of
+    /// the level too.
     pub fn show_level(&mut self, level: Option<u32>) {
+        self.level = level;
         self.show_all();
-        if level.is_some() {
-            let all = self.scene.draw_order().iter().copied();
-            let is_elsewhere =
-                |&path: &u32| self.layout().paths.get(path as usize).level() != level;
-            let others: Vec<u32> = all.filter(is_elsewhere).collect();
-            self.set_visibility(others.into_iter(), PathState::Hidden);
-        }
         self.deselect_hidden();
     }
 
-    /// Shows all hidden paths.
+    /// Shows all hidden paths of the shown level.
     pub fn show_all(&mut self) {
-        let rows = 0..self.scene.row_count() as u32;
-        let hidden = rows.filter(|&path| self.scene.state(path) == PathState::Hidden);
-        let hidden: Vec<u32> = hidden.collect();
-        self.set_visibility(hidden.into_iter(), PathState::Shown);
+        let mut states: [Vec<u32>; 2] = Default::default();
+        for row in self.existing(Table::Paths) {
+            let is_here = self.shows_level(self.layout().paths.get(row as usize).level());
+            let wanted = if is_here {
+                PathState::Shown
+            } else {
+                PathState::Hidden
+            };
+            if self.scene.state(row) != wanted {
+                states[usize::from(is_here)].push(row);
+            }
+        }
+        let [hidden, shown] = states;
+        self.set_visibility(hidden.into_iter(), PathState::Hidden);
+        self.set_visibility(shown.into_iter(), PathState::Shown);
     }
 
     fn set_visibility(&mut self, paths: impl Iterator<Item = u32>, state: PathState) {
@@ -156,9 +162,7 @@ impl Document {
         exists
             && match of {
                 Table::Paths => self.scene.state(row) == PathState::Shown,
-                Table::Nodes | Table::Stations => {
-                    self.scene.shows_level(of.level(self.layout(), row))
-                }
+                Table::Nodes | Table::Stations => self.shows_level(of.level(self.layout(), row)),
             }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use guideway_document::decorations::{DecorationStyle, MarkOptions, grid};
+use guideway_document::decorations::{DecorationStyle, MarkOptions, grid, grid_step_m};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, Style, View};
 use serde::{Deserialize, Serialize};
@@ -135,6 +135,12 @@ impl DisplaySettings {
             true => grid(view, self.grid_step_m, &self.decoration_style(px_per_point)),
             false => DrawList::default(),
         }
+    }
+
+    /// Distance of the grid lines of a view, in meters: points snap to the lines that are shown.
+    pub(crate) fn grid_step_m(&self, view: &View, px_per_point: f64) -> f64 {
+        self.grid_step_m
+            .unwrap_or_else(|| grid_step_m(view, px_per_point))
     }
 
     /// The options that scenes are made with.

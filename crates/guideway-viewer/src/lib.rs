@@ -14,12 +14,12 @@
 //! | files | open files, loading, saving, watching | `files` |
 //! | backdrop | floor plan, swept areas | `backdrop` |
 //! | tools | pointer tools and gestures | `tools` |
-//! | selection | search, exact edits, selection commands | `selection` |
+//! | selection | search, exact edits, selection commands, copied elements | `selection` |
 //! | canvas | camera, input, painting, decorations | `canvas` |
 //! | export | pictures for files and clipboard | `export` |
 //! | preferences | what outlives a run | `preferences` |
 //! | project | files and look in one file | `project` |
-//! | panels | menu bar, side panel, dialogs | `panels` |
+//! | panels | menu bar, drawing bar, side panel, dialogs | `panels` |
 //! | app | all parts, and the routes between them | `app` |
 
 mod action;

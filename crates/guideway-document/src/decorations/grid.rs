@@ -16,18 +16,22 @@ const OPACITY: f64 = 0.12;
 /// Least distance between the lines of a given step, in points; below it every tenth is drawn.
 const MIN_GIVEN_POINTS: f64 = 8.0;
 
-/// The grid of a view: lines one point wide, `step_m` meters apart, or else 1, 2 or 5 times a power
-/// of ten meters.
+/// Distance of the grid lines of a view in meters: 1, 2 or 5 times a power of ten.
+pub fn grid_step_m(view: &View, px_per_point: f64) -> f64 {
+    round_step(MIN_SPACING_POINTS * px_per_point / view.px_per_m())
+}
+
+/// The grid of a view: lines one point wide, `step_m` meters apart, or else [`grid_step_m`].
 pub fn grid(view: &View, step_m: Option<f64>, style: &DecorationStyle) -> DrawList {
     let mut list = DrawList::default();
     let color = style.ink.with_opacity(OPACITY);
     let half_px = style.px_per_point / 2.0;
     let size = view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
-    let px_per_m = view.px_per_m();
+    let least_m = MIN_GIVEN_POINTS * style.px_per_point / view.px_per_m();
     let step_m = match step_m {
-        Some(step_m) => coarser(step_m, MIN_GIVEN_POINTS * style.px_per_point / px_per_m),
-        None => round_step(MIN_SPACING_POINTS * style.px_per_point / px_per_m),
+        Some(step_m) => coarser(step_m, least_m),
+        None => grid_step_m(view, style.px_per_point),
     };
     let [x_px, y_px] = line_positions(view, step_m);
     for x in x_px {
@@ -47,7 +51,8 @@ fn coarser(step_m: f64, least_m: f64) -> f64 {
     step_m * 10_f64.powf(tens)
 }
 
-/// Pixel positions of the vertical lines along x and of the horizontal lines along y.
+/// Pixel positions of the vertical lines along x and of the horizontal lines along y, `step_m`
+/// apart.
 fn line_positions(view: &View, step_m: f64) -> [Vec<f64>; 2] {
     let visible = view.world_bounds();
     let lines = |from_m: f64, to_m: f64| {

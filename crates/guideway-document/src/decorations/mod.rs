@@ -34,7 +34,7 @@ mod round_step;
 mod scale_bar;
 mod style;
 
-pub use grid::grid;
+pub use grid::{grid, grid_step_m};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use legend::{Corner, legend};

@@ -94,12 +94,12 @@ impl<'d> Visible<'d> {
         let is_shown = |path: &u32| scene.state(*path) == PathState::Shown;
         let paths = few(&mut index.paths_in(bounds).filter(is_shown));
         let layout = document.layout();
-        let is_on_level = |node: &u32| scene.shows_level(layout.nodes.level(*node));
+        let is_on_level = |node: &u32| document.shows_level(layout.nodes.level(*node));
         let nodes = few(&mut index.nodes_in(bounds).filter(is_on_level));
         let station_m = |station: u32| document.station_position_m(station);
         let is_visible = |station: &u32| {
             scene.exists(Table::Stations, *station)
-                && scene.shows_level(layout.stations.level(*station))
+                && document.shows_level(layout.stations.level(*station))
                 && station_m(*station).is_some_and(|at| bounds.contains(at))
         };
         let stations = 0..layout.stations.len() as u32;

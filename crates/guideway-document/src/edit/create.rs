@@ -95,15 +95,17 @@ impl Document {
     }
 
     /// Creates a station that nodes serve. Without a position in meters, it is at the first of
-    /// them. Returns its row.
+    /// them; without a level, on that of the first of them. Returns its row.
     ///
     /// # Errors
-    /// When a node does not exist, the identifier is taken, or the position is out of reach.
+    /// When a node or the level does not exist, the identifier is taken, or the position is out of
+    /// reach.
     pub fn create_station(
         &mut self,
         id: Option<&str>,
         nodes: &[u32],
         position_m: Option<Point<f64>>,
+        level: Option<u32>,
     ) -> Result<u32, OperationError> {
         self.check_rows_exist(Table::Nodes, &nodes.iter().copied().collect())?;
         let id = self.new_name(Table::Stations, id, "station")?;
@@ -114,7 +116,7 @@ impl Document {
             id,
             position_m: position_m.or_else(|| Some(layout.nodes.position_m(*first?))),
             nodes: nodes.to_vec(),
-            level: first.and_then(|&node| layout.nodes.level(node)),
+            level: level.or_else(|| layout.nodes.level(*first?)),
             attributes_of: None,
         };
         let edit = TableEdit::InsertStations([station].into());

@@ -4,7 +4,7 @@ use guideway_layout::{Geometry, PathRef};
 use guideway_spline::{Point, Runs};
 
 /// Copies the runs of a path.
-pub(super) fn runs_of(path: PathRef<'_>) -> Runs {
+pub(crate) fn runs_of(path: PathRef<'_>) -> Runs {
     let mut runs = Runs::default();
     path.copy_runs(&mut runs);
     runs

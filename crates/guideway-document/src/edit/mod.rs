@@ -36,9 +36,10 @@ mod vehicle_types;
 
 pub use clip::Clip;
 pub use create::NewEdge;
+pub(crate) use curves::runs_of;
 pub use draw::drawn_path;
 pub use error::OperationError;
 pub use points::PointRef;
 pub use properties::PropertyRef;
-pub use shapes::{AlignTo, Shape, ShapeError, Welded};
+pub use shapes::{AlignTo, Drawing, DrawnCurve, EdgeTemplate, Shape, ShapeError, Welded};
 pub use transform::Neighbors;

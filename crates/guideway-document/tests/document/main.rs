@@ -16,3 +16,4 @@ mod random_network;
 mod selection;
 mod shapes;
 mod site;
+mod snapping;

@@ -25,7 +25,7 @@ fn creates_nodes_paths_and_stations() {
     let path = document.layout().paths.get(row as usize);
     assert_eq!((path.id(), path.level()), ("a--node", Some(0)));
     let station = document
-        .create_station(Some("charger"), &[node], None)
+        .create_station(Some("charger"), &[node], None, None)
         .unwrap();
     assert_eq!(document.station_position_m(station), Some(p(5.0, 5.0)));
     document.move_node(node, p(6.0, 5.0)).unwrap();
@@ -42,7 +42,9 @@ fn creates_nodes_paths_and_stations() {
     };
     let error = document.create_edge(&same).unwrap_err();
     assert!(error.to_string().contains("from `b` to `b` has no length"));
-    let unknown = document.create_station(None, &[99], None).unwrap_err();
+    let unknown = document
+        .create_station(None, &[99], None, None)
+        .unwrap_err();
     assert!(unknown.to_string().contains("no node in row 99"));
     while document.undo().is_some() {}
     let layout = document.to_layout();

@@ -123,17 +123,22 @@ fn snaps_to_nodes_before_directions_before_the_grid() {
         directions: Some(8),
         ..SnapOptions::default()
     };
-    assert_eq!(document.snap(&snap, p(10.4, 0.4), None), p(10.0, 0.0));
+    assert_eq!(document.snap(&snap, p(10.4, 0.4), None).at_m, p(10.0, 0.0));
     let moving = SnapOptions {
         moving_node: Some(1),
         ..snap
     };
-    assert_eq!(document.snap(&moving, p(10.4, 0.4), None), p(10.5, 0.5));
-    let to = document.snap(&snap, p(5.0, 6.0), Some(p(0.0, 0.0)));
-    assert!(is_near(to, p(5.5, 5.5)), "{to:?}");
-    assert_eq!(document.snap(&snap, p(5.1, 6.3), None), p(5.0, 6.5));
     assert_eq!(
-        document.snap(&SnapOptions::default(), p(5.1, 6.3), None),
+        document.snap(&moving, p(10.4, 0.4), None).at_m,
+        p(10.5, 0.5)
+    );
+    let to = document.snap(&snap, p(5.0, 6.0), Some(p(0.0, 0.0))).at_m;
+    assert!(is_near(to, p(5.5, 5.5)), "{to:?}");
+    assert_eq!(document.snap(&snap, p(5.1, 6.3), None).at_m, p(5.0, 6.5));
+    assert_eq!(
+        document
+            .snap(&SnapOptions::default(), p(5.1, 6.3), None)
+            .at_m,
         p(5.1, 6.3)
     );
 }

@@ -190,7 +190,7 @@ fn perform(document: &mut Document, action: &Action) {
         }
         Action::CreateStation(nodes) => {
             let nodes: Vec<u32> = set(Table::Nodes, nodes).iter().collect();
-            drop(document.create_station(None, &nodes, None));
+            drop(document.create_station(None, &nodes, None, None));
         }
         Action::Reverse(rows) => {
             let rows = set(Table::Paths, rows);

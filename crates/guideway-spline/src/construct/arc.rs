@@ -22,6 +22,9 @@ const STRAIGHT_RAD: f64 = 1e-10;
 /// Least difference of h from a half turn, where the radius would be infinite.
 const BEHIND_RAD: f64 = 1e-6;
 
+/// Relative rounding error of half a distance, within which a radius gives half a circle.
+const ROUNDING: f64 = 1e-12;
+
 /// An arc of a circle, or a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
@@ -64,6 +67,28 @@ impl Arc {
         // The chords turn by half of each part of the arc, hence by half of the whole.
         Self::new(start, end, signed_rad(through - start, end - through))
             .ok_or(ConstructError::NotBetween { through })
+    }
+
+    /// The shorter arc of a radius between two points: to the left for a positive radius, to the
+    /// right for a negative one.
+    ///
+    /// # Errors
+    /// When the points are the same, or the radius is too small, zero or not finite.
+    pub fn of_radius(
+        start: Point<f64>,
+        end: Point<f64>,
+        radius: f64,
+    ) -> Result<Self, ConstructError> {
+        check_distinct(&[start, end])?;
+        if !radius.is_finite() {
+            return Err(ConstructError::NotFinite);
+        }
+        let smallest = start.distance(end) / 2.0;
+        if radius.abs() < smallest * (1.0 - ROUNDING) {
+            return Err(ConstructError::TooSmall { radius, smallest });
+        }
+        let half_rad = (smallest / radius).clamp(-1.0, 1.0).asin();
+        Self::new(start, end, half_rad).ok_or(ConstructError::NotFinite)
     }
 
     /// The arc from `start` to `end` that turns by twice `half_rad`; `None` for a full turn.

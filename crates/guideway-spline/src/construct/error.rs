@@ -63,6 +63,14 @@ pub enum ConstructError {
         /// The radius.
         radius: f64,
     },
+    /// No arc of the radius reaches from one point to the other.
+    #[error("a radius of {radius} is too small; half a circle has {:.3}", ceil(*.smallest))]
+    TooSmall {
+        /// The radius.
+        radius: f64,
+        /// Half the distance of the points.
+        smallest: f64,
+    },
     /// No arc of the radius touches both curves.
     #[error(
         "a radius of {radius} does not fit; the largest one that does is {:.3}",
@@ -79,4 +87,9 @@ pub enum ConstructError {
 /// Rounds down to three digits, so that the shown radius fits.
 fn floor(value: f64) -> f64 {
     (value * 1e3).floor() / 1e3
+}
+
+/// Rounds up to three digits, so that the shown radius fits.
+fn ceil(value: f64) -> f64 {
+    (value * 1e3).ceil() / 1e3
 }

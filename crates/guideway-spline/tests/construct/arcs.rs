@@ -141,3 +141,22 @@ fn errors_name_the_points() {
         Err(ConstructError::EqualPoints { .. })
     ));
 }
+
+#[test]
+fn arc_of_a_radius_turns_to_its_side_up_to_half_a_circle() {
+    let (start, end) = (p(0.0, 0.0), p(2.0, 0.0));
+    for radius in [1.0, 1.5, 100.0] {
+        for side in [1.0, -1.0] {
+            let arc = Arc::of_radius(start, end, side * radius).unwrap();
+            assert!((arc.radius() - radius).abs() < 1e-9 * radius);
+            assert!(arc.sweep_rad() * side > 0.0);
+        }
+    }
+    let half = Arc::of_radius(start, end, 1.0).unwrap();
+    assert!((half.length() - std::f64::consts::PI).abs() < 1e-9);
+    let small = Arc::of_radius(start, end, 0.99).unwrap_err();
+    assert!(matches!(small, ConstructError::TooSmall { smallest, .. } if smallest == 1.0));
+    assert!(Arc::of_radius(start, end, 0.0).is_err());
+    assert!(Arc::of_radius(start, end, f64::NAN).is_err());
+    assert!(Arc::of_radius(start, start, 1.0).is_err());
+}

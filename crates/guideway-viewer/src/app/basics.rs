@@ -39,11 +39,13 @@ pub(super) fn tool_context<'a>(
     canvas: &Canvas,
     settings: &DisplaySettings,
 ) -> Option<ToolContext<'a>> {
+    let view = canvas.camera.view()?;
     Some(ToolContext {
-        view: canvas.camera.view()?,
+        view,
         document: files.document(),
         line_rule: settings.line_rule(canvas.px_per_point()),
         picks_symbols: settings.has_symbols,
+        grid_step_m: settings.grid_step_m(&view, canvas.px_per_point()),
     })
 }
 

@@ -13,7 +13,7 @@ use super::state::App;
 use crate::backdrop::ActiveDocument;
 use crate::canvas::CanvasPainter;
 use crate::files::{Layer, LayerContext, LayerEvent};
-use crate::panels::{MenuBar, SidePanel, StatusBar};
+use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
 
@@ -35,6 +35,18 @@ impl App {
             let actions = bar.show(ui);
             self.apply_all(actions, &ctx);
         });
+        if self.files.active().is_some() {
+            Panel::top("drawing").show(ui, |ui| {
+                let mut bar = DrawingBar {
+                    files: &self.files,
+                    tools: &mut self.tools,
+                    settings: &mut self.settings,
+                    new_edges: &mut self.new_edges,
+                };
+                let actions = bar.show(ui);
+                self.apply_all(actions, &ctx);
+            });
+        }
         Panel::bottom("status").show(ui, |ui| {
             let bar = StatusBar {
                 canvas: &self.canvas,
@@ -98,7 +110,6 @@ impl App {
         let mut panel = SidePanel {
             files: &mut self.files,
             floor_plan: &mut self.floor_plan,
-            tools: &mut self.tools,
             exact_edit: &mut self.exact_edit,
             find: &mut self.find,
             settings: &mut self.settings,

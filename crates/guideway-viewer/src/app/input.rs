@@ -7,7 +7,7 @@ use super::basics::release_keyboard;
 use super::state::App;
 use crate::backdrop::PlanTask;
 use crate::command::{Command, command_of};
-use crate::tools::{PointerEvent, Tool};
+use crate::tools::PointerEvent;
 
 impl App {
     /// Handles the keys and pointer events of a frame. Fields and dialogs get what is left.
@@ -15,7 +15,7 @@ impl App {
         let events = ctx.input(|input| input.events.clone());
         let mut is_left = Vec::with_capacity(events.len());
         for event in &events {
-            is_left.push(!self.take_key(event, ctx));
+            is_left.push(!self.take_key(event, ctx) && !self.take_text(event, ctx));
             self.take_pointer(event, ctx);
         }
         let mut is_left = is_left.into_iter();
@@ -43,6 +43,12 @@ impl App {
             return false;
         };
         let is_typing = ctx.text_edit_focused();
+        if !is_typing
+            && !self.dialogs.is_modal(&self.files)
+            && self.take_typed_key(key, modifiers, ctx)
+        {
+            return true;
+        }
         let Some(command) = command_of(key, modifiers) else {
             if !is_typing && !self.dialogs.is_modal(&self.files) {
                 self.take_point_key(key, ctx);
@@ -51,7 +57,7 @@ impl App {
         };
         let is_for_field = is_typing && (!modifiers.command || is_text_command(command));
         let is_blocked = is_for_field || self.dialogs.is_modal(&self.files);
-        let is_idle = command == Command::FinishPath && self.tools.tool() != Tool::Draw;
+        let is_idle = command == Command::FinishPath && self.tools.tool().curve().is_none();
         if is_idle || (is_blocked && command != Command::Cancel) {
             return false;
         }
@@ -101,6 +107,12 @@ impl App {
 fn is_text_command(command: Command) -> bool {
     matches!(
         command,
-        Command::Undo | Command::Redo | Command::SelectAll | Command::CopyPicture
+        Command::Undo
+            | Command::Redo
+            | Command::Cut
+            | Command::Copy
+            | Command::Paste
+            | Command::SelectAll
+            | Command::CopyPicture
     )
 }

@@ -12,10 +12,12 @@
 //! | file commands | paths | loads, exports | `file_commands` |
 //! | floor plan | a file, clicks, drags | a plan at its place | `floor_plan` |
 //! | project | files, plan, view, look | a project file, and back | `project` |
+//! | drawing | keys, texts, commands | new layouts, typed points, pasted and arranged elements | `drawing` |
 //! | save | the active file | a written file, or a question | `saving` |
 
 mod basics;
 mod context_menu;
+mod drawing;
 mod file_commands;
 mod file_dialogs;
 mod floor_plan;

@@ -10,7 +10,6 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
-use crate::selection::selection_command;
 use crate::tools::{PointerEvent, Tool, ToolEffect};
 
 /// Distance of one key press of a pan command, in pixels.
@@ -86,6 +85,7 @@ impl App {
     pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
         let settings = &mut self.settings;
         match command {
+            Command::NewLayout => self.new_layout(),
             Command::Open => self.ask_for_file(PromptKind::Open),
             Command::OpenRecent => self.dialogs.recent.open(self.files.recent().files()),
             Command::ExampleSite => self.open_example(),
@@ -121,18 +121,41 @@ impl App {
             | Command::Hide
             | Command::Isolate
             | Command::ShowAll => self.edit_selection(command),
+            Command::Cut => self.copy_elements(true, ctx),
+            Command::Copy => self.copy_elements(false, ctx),
+            Command::Paste => self.paste_elements(),
+            Command::Array
+            | Command::Rename
+            | Command::MoveToLevel
+            | Command::Fillet
+            | Command::Split
+            | Command::SplitCrossings
+            | Command::Join
+            | Command::Weld
+            | Command::Reverse
+            | Command::OneWay
+            | Command::TwoWay
+            | Command::Straighten
+            | Command::AlignX
+            | Command::AlignY
+            | Command::Distribute => self.arrange(command, ctx),
             Command::ToolSelect => self.tools.select(Tool::Select),
             Command::ToolPoints => self.tools.select(Tool::Points),
-            Command::ToolDraw => self.tools.select(Tool::Draw),
+            Command::ToolLine => self.tools.select(Tool::Line),
+            Command::ToolArc => self.tools.select(Tool::Arc),
+            Command::ToolCurve => self.tools.select(Tool::Curve),
+            Command::ToolNode => self.tools.select(Tool::Node),
+            Command::ToolStation => self.tools.select(Tool::Station),
             Command::ToolMeasure => self.tools.select(Tool::Measure),
+            Command::PanLeft | Command::PanRight | Command::PanUp | Command::PanDown => {
+                if !self.nudge(command) {
+                    self.move_camera(command);
+                }
+            }
             Command::ZoomToAll
             | Command::ZoomToSelection
             | Command::ZoomIn
             | Command::ZoomOut
-            | Command::PanLeft
-            | Command::PanRight
-            | Command::PanUp
-            | Command::PanDown
             | Command::Back
             | Command::Forward => self.move_camera(command),
             Command::Arrows => settings.has_arrows ^= true,
@@ -146,15 +169,6 @@ impl App {
                 settings.set_dark(!settings.is_dark);
                 self.apply_theme(ctx);
             }
-        }
-    }
-
-    /// Edits the selection, or takes a step of the history. What a drag has done so far stays.
-    fn edit_selection(&mut self, command: Command) {
-        self.tools.abort_drag();
-        let view = self.canvas.camera.view();
-        if let Some(task) = selection_command(command, view.as_ref()) {
-            self.edit(task);
         }
     }
 
@@ -255,9 +269,10 @@ impl App {
         }
     }
 
-    fn apply_effect(&mut self, effect: Option<ToolEffect>) {
+    pub(super) fn apply_effect(&mut self, effect: Option<ToolEffect>) {
         match effect {
             Some(ToolEffect::Edit(task)) => self.edit(task),
+            Some(ToolEffect::Refused(why)) => self.dialogs.notices.add(why),
             Some(ToolEffect::ExpectEdit) => {
                 if let Some(layer) = self.files.active_mut() {
                     layer.slot.expect_edit(&self.context.repaint);

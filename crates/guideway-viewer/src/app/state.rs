@@ -15,10 +15,10 @@ use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::panels::dialogs::Dialogs;
-use crate::panels::{FindingsPanel, PropertiesPanel, Welcome};
+use crate::panels::{FindingsPanel, NewEdgesPanel, PropertiesPanel, Welcome};
 use crate::preferences::{PreferencesFile, WindowPlace};
 use crate::render_queue::MethodSelection;
-use crate::selection::{ExactEdit, Find};
+use crate::selection::{CopiedElements, ExactEdit, Find};
 use crate::services::AppServices;
 use crate::tools::Tools;
 
@@ -42,6 +42,9 @@ pub(crate) struct App {
     pub(crate) exact_edit: ExactEdit,
     pub(crate) findings: FindingsPanel,
     pub(crate) properties: PropertiesPanel,
+    pub(crate) new_edges: NewEdgesPanel,
+    /// Elements to paste.
+    pub(crate) copied: Option<CopiedElements>,
     pub(crate) dialogs: Dialogs,
     pub(crate) welcome: Welcome,
     pub(super) project: OpenProject,
@@ -87,6 +90,8 @@ impl App {
             exact_edit: ExactEdit::default(),
             findings: FindingsPanel::default(),
             properties: PropertiesPanel::default(),
+            new_edges: NewEdgesPanel::default(),
+            copied: None,
             dialogs: Dialogs::default(),
             welcome: Welcome::default(),
             project: OpenProject::default(),

@@ -17,6 +17,8 @@ use super::paint_gesture::{
     HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_handles, paint_outline,
     paint_rings,
 };
+use super::paint_snap::paint_snap;
+use super::paint_typed::paint_typed;
 use super::screen::Screen;
 use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanTask, SweptAreasLayer};
 use crate::display_settings::DisplaySettings;
@@ -158,25 +160,43 @@ impl CanvasPainter<'_> {
     }
 
     fn paint_gesture(&self, painter: &Painter) {
+        let context = ToolContext {
+            view: self.view,
+            document: self.files.document(),
+            line_rule: self.settings.line_rule(f64::from(self.screen.px_per_point)),
+            picks_symbols: false,
+            grid_step_m: self
+                .settings
+                .grid_step_m(&self.view, f64::from(self.screen.px_per_point)),
+        };
+        let pointer_m = self
+            .pointer_px
+            .map(|at_px| self.view.world_from_pixel(at_px));
         match self.tools.gesture() {
             Gesture::Box { from_px, to_px } => paint_box(painter, self.screen, *from_px, *to_px),
             Gesture::Points(points) => {
-                let context = ToolContext {
-                    view: self.view,
-                    document: self.files.document(),
-                    line_rule: self.settings.line_rule(f64::from(self.screen.px_per_point)),
-                    picks_symbols: false,
-                };
-                let next = self.pointer_px.map(|at| self.view.world_from_pixel(at));
-                let next = next.map(|at_m| self.tools.snapped(&context, at_m, self.modifiers));
+                let snapped = |at_m| self.tools.snapped(&context, at_m, self.modifiers).at_m;
+                let next = pointer_m.map(snapped);
                 let points_m: Vec<Point<f64>> = points.iter().copied().chain(next).collect();
+                let drawing = self.tools.drawing(next);
+                let document = self.files.document();
+                let paths = drawing
+                    .zip(document)
+                    .and_then(|(d, document)| document.preview(&d).ok());
                 let draft = Draft {
-                    tool: self.tools.tool(),
                     points_m: &points_m,
+                    paths: paths.as_ref(),
                 };
                 draft.paint(painter, self.screen, &self.view, self.settings);
             }
             _ => {}
+        }
+        let target = |at_m| self.tools.snap_target(&context, at_m, self.modifiers);
+        if let Some(snapped) = pointer_m.and_then(target) {
+            paint_snap(painter, self.screen, &self.view, self.settings, &snapped);
+        }
+        if let Some(typed) = self.tools.typed() {
+            paint_typed(painter, self.screen, self.settings, typed);
         }
     }
 

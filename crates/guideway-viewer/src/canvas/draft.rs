@@ -1,9 +1,10 @@
-//! Paints the path that is drawn, or the polyline that is measured, with its dimensions.
+//! Paints what is drawn, or the polyline that is measured, with its dimensions.
 
 use eframe::egui::{FontId, Painter, Pos2, Stroke, Vec2};
 use guideway_document::decorations::path_outline;
 use guideway_document::measure::bends;
-use guideway_document::{drawn_path, text_format};
+use guideway_document::text_format;
+use guideway_layout::Layout;
 use guideway_scene::View;
 use guideway_spline::Point;
 
@@ -12,21 +13,21 @@ use super::paint_gesture::{HOVER_COLOR, MIN_OUTLINE_WIDTH, paint_outline};
 use super::screen::Screen;
 use super::shape_text::shape_text;
 use crate::display_settings::DisplaySettings;
-use crate::tools::Tool;
 
 const TEXT_POINTS: f32 = 13.0;
 /// Opacity of the box behind the dimensions.
 const BACKGROUND_OPACITY: f32 = 0.75;
 
-/// A path being drawn, or a polyline being measured.
+/// What is drawn, or a polyline being measured.
 pub(super) struct Draft<'a> {
-    pub(super) tool: Tool,
     /// The points so far and the one at the pointer, in meters.
     pub(super) points_m: &'a [Point<f64>],
+    /// The paths through them; `None` for a measured polyline, or if there are no such paths.
+    pub(super) paths: Option<&'a Layout>,
 }
 
 impl Draft<'_> {
-    /// Paints points, control polygon, curve and dimensions.
+    /// Paints points, lines between them, paths and dimensions.
     pub(super) fn paint(
         &self,
         painter: &Painter,
@@ -42,19 +43,26 @@ impl Draft<'_> {
         let Some(&last) = corners.last() else {
             return;
         };
-        let text = if self.tool == Tool::Measure {
-            painter.line(corners, Stroke::new(1.5, HOVER_COLOR));
-            dimensions(self.points_m)
-        } else {
-            painter.line(corners, Stroke::new(1.0, HOVER_COLOR.gamma_multiply(0.5)));
-            drawn_path(self.points_m).map_or_else(String::new, |layout| {
+        let is_single = |layout: &&Layout| layout.paths.len() == 1;
+        let text = match self.paths.filter(is_single) {
+            Some(layout) if self.points_m.len() > 2 => {
                 let path = layout.paths.get(0);
-                let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
-                let outline = path_outline(path, view);
-                paint_outline(painter, &outline, stroke, |pixel| screen.point(pixel));
                 shape_text(path, &bends(path))
-            })
+            }
+            _ => dimensions(self.points_m),
         };
+        match self.paths {
+            Some(layout) => {
+                let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
+                for path in layout.paths.iter() {
+                    let outline = path_outline(path, view);
+                    paint_outline(painter, &outline, stroke, |pixel| screen.point(pixel));
+                }
+            }
+            None => {
+                painter.line(corners, Stroke::new(1.5, HOVER_COLOR));
+            }
+        }
         let background = color32(settings.background()).gamma_multiply(BACKGROUND_OPACITY);
         paint_text_box(
             painter,

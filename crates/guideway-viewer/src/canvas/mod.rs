@@ -15,6 +15,8 @@ mod canvas_painter;
 mod draft;
 mod paint_draw_list;
 mod paint_gesture;
+mod paint_snap;
+mod paint_typed;
 mod pointer_tracker;
 mod screen;
 mod shape_text;

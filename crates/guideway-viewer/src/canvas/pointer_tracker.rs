@@ -170,6 +170,8 @@ impl PointerTracker {
         if press.is_drag {
             let ended = PointerStep::Tool(PointerEvent::DragEnded(input.modifiers));
             steps.extend((!press.pans).then_some(ended));
+        } else if button == PointerButton::Secondary {
+            steps.push(PointerStep::Tool(PointerEvent::SecondaryClicked));
         } else if button == PointerButton::Primary {
             let at_px = input.screen.pixel(at);
             let clicked = PointerEvent::Clicked(at_px, input.modifiers);
@@ -250,6 +252,17 @@ mod tests {
         ];
         let expected = [PointerStep::Pan(Vec2::new(50.0, 30.0))];
         assert_eq!(steps(&events, 0.0, tracker), expected);
+    }
+
+    #[test]
+    fn right_click_without_a_drag_reaches_the_tools() {
+        let at = pos2(10.0, 10.0);
+        let events = [true, false].map(|pressed| button(at, PointerButton::Secondary, pressed));
+        let expected = [PointerStep::Tool(PointerEvent::SecondaryClicked)];
+        assert_eq!(
+            steps(&events, 0.0, &mut PointerTracker::default()),
+            expected
+        );
     }
 
     #[test]

@@ -10,11 +10,11 @@ pub(crate) struct Menu {
 }
 
 /// The menus, from left to right.
-pub(crate) const MENUS: [Menu; 6] = [
+pub(crate) const MENUS: [Menu; 7] = [
     Menu {
         name: "File",
         groups: &[
-            &[Open, OpenRecent, Reload],
+            &[NewLayout, Open, OpenRecent, Reload],
             &[Save, SaveAs, SaveProject],
             &[ExportPng, ExportSvg, CopyPicture],
             &[FloorPlan, PlaceFloorPlan],
@@ -25,11 +25,20 @@ pub(crate) const MENUS: [Menu; 6] = [
         name: "Edit",
         groups: &[
             &[Undo, Redo],
+            &[Cut, Copy, Paste, Duplicate, Array, Delete],
             &[SelectAll, Deselect, Find],
-            &[Duplicate, Delete],
+            &[Rename, MoveToLevel],
             &[RotateLeft, FlipHorizontal, FlipVertical],
             &[Refine],
             &[Settings],
+        ],
+    },
+    Menu {
+        name: "Arrange",
+        groups: &[
+            &[Fillet, Split, SplitCrossings, Join, Weld],
+            &[Reverse, OneWay, TwoWay],
+            &[Straighten, AlignX, AlignY, Distribute],
         ],
     },
     Menu {
@@ -52,7 +61,8 @@ pub(crate) const MENUS: [Menu; 6] = [
     Menu {
         name: "Tool",
         groups: &[
-            &[ToolSelect, ToolPoints, ToolDraw, ToolMeasure],
+            &[ToolSelect, ToolPoints, ToolMeasure],
+            &[ToolLine, ToolArc, ToolCurve, ToolNode, ToolStation],
             &[FinishPath, Cancel],
         ],
     },
@@ -80,14 +90,19 @@ impl ContextPlace {
         match self {
             Self::Path => &[
                 &[ZoomToSelection],
-                &[Duplicate, Delete],
+                &[Cut, Copy, Duplicate, Delete, Rename],
+                &[Reverse, OneWay, TwoWay, Split, Fillet],
                 &[RotateLeft, FlipHorizontal, FlipVertical, Refine],
                 &[Hide, Isolate, ShowAll],
             ],
-            Self::Node | Self::Station => &[&[ZoomToSelection], &[Duplicate, Delete]],
+            Self::Node | Self::Station => &[
+                &[ZoomToSelection],
+                &[Cut, Copy, Duplicate, Delete, Rename],
+            ],
             Self::Draft => &[&[FinishPath, Undo], &[Cancel]],
             Self::Empty => &[
-                &[ToolSelect, ToolPoints, ToolDraw, ToolMeasure],
+                &[ToolSelect, ToolPoints, ToolLine, ToolMeasure],
+                &[Paste],
                 &[Undo, Redo],
                 &[SelectAll, Deselect],
                 &[ZoomToAll, Back],

@@ -118,7 +118,7 @@ impl OpenFiles {
     }
 
     /// Opens a layout that has no file yet. `stem` and `extension` become the suggested name, with
-    /// a number between them where an open file has that name.
+    /// a number between them where an open file or one on disk has that name.
     pub(crate) fn open_untitled(
         &mut self,
         (stem, extension): (&str, &str),
@@ -129,7 +129,10 @@ impl OpenFiles {
         let numbered = (2..).map(|number| PathBuf::from(format!("{stem}-{number}.{extension}")));
         let mut names =
             std::iter::once(PathBuf::from(format!("{stem}.{extension}"))).chain(numbered);
-        let path = names.find(|name| self.index_of(name).is_none());
+        let services = &self.context.services;
+        let is_free =
+            |path: &PathBuf| self.index_of(path).is_none() && services.file_stamp(path).is_none();
+        let path = names.find(is_free);
         let (path, made_by) = (path.unwrap_or_default(), Some(make));
         self.push(Layer::open(path, made_by, method, options, &self.context));
     }

@@ -43,8 +43,8 @@ impl CommandState<'_> {
             Command::Redo => redo.is_some(),
             Command::ShowAll => document.scene().hidden_count() > 0,
             Command::NextFile => self.files.layers().len() > 1,
-            Command::FinishPath => self.tool == Tool::Draw,
-            command if needs_selection(command) => !document.selection().is_empty(),
+            Command::FinishPath => self.tool.curve().is_some(),
+            command if needs_selection(command) => !document.selected().is_empty(),
             _ => true,
         }
     }
@@ -62,7 +62,11 @@ impl CommandState<'_> {
             Command::SweptAreas => self.has_swept_areas,
             Command::ToolSelect => self.tool == Tool::Select,
             Command::ToolPoints => self.tool == Tool::Points,
-            Command::ToolDraw => self.tool == Tool::Draw,
+            Command::ToolLine => self.tool == Tool::Line,
+            Command::ToolArc => self.tool == Tool::Arc,
+            Command::ToolCurve => self.tool == Tool::Curve,
+            Command::ToolNode => self.tool == Tool::Node,
+            Command::ToolStation => self.tool == Tool::Station,
             Command::ToolMeasure => self.tool == Tool::Measure,
             _ => false,
         }
@@ -82,6 +86,23 @@ fn needs_selection(command: Command) -> bool {
             | Command::ZoomToSelection
             | Command::Hide
             | Command::Isolate
+            | Command::Cut
+            | Command::Copy
+            | Command::Array
+            | Command::Rename
+            | Command::MoveToLevel
+            | Command::Fillet
+            | Command::Split
+            | Command::SplitCrossings
+            | Command::Join
+            | Command::Weld
+            | Command::Reverse
+            | Command::OneWay
+            | Command::TwoWay
+            | Command::Straighten
+            | Command::AlignX
+            | Command::AlignY
+            | Command::Distribute
     )
 }
 
@@ -103,5 +124,6 @@ fn needs_file(command: Command) -> bool {
                 | Command::NextFile
                 | Command::ShowAll
                 | Command::FinishPath
+                | Command::Paste
         )
 }

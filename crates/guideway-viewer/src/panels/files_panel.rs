@@ -1,12 +1,10 @@
-//! The Files section: open files, floor plan, levels.
+//! The Files section: open files and floor plan.
 
 use eframe::egui::{Label, RichText, Ui};
-use guideway_document::Document;
 use guideway_layout::shown_path;
 
 use crate::action::Action;
 use crate::backdrop::FloorPlanLayer;
-use crate::editing::EditTask;
 use crate::files::OpenFiles;
 
 /// Shows the section.
@@ -42,10 +40,6 @@ pub(super) fn show(
         }
     }
     show_floor_plan(ui, floor_plan);
-    let levels = files.document().map_or(Vec::new(), levels);
-    if levels.len() > 1 {
-        show_levels(ui, levels, actions);
-    }
 }
 
 fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
@@ -63,26 +57,4 @@ fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
     if let Some(error) = floor_plan.error() {
         ui.colored_label(ui.visuals().error_fg_color, error);
     }
-}
-
-fn show_levels(ui: &mut Ui, levels: Vec<(u32, String)>, actions: &mut Vec<Action>) {
-    ui.horizontal_wrapped(|ui| {
-        ui.label("Level:");
-        let all = [(None, "all".to_owned())].into_iter();
-        let each = levels.into_iter().map(|(level, name)| (Some(level), name));
-        for (level, name) in all.chain(each) {
-            if ui.button(name).clicked() {
-                let show = EditTask::view_change(move |document| document.show_level(level));
-                actions.push(Action::Edit(show));
-            }
-        }
-    });
-}
-
-/// Row and name of every level.
-fn levels(document: &Document) -> Vec<(u32, String)> {
-    let levels = document.layout().levels.iter().zip(0..);
-    levels
-        .map(|(level, row)| (row, level.name.clone().unwrap_or_else(|| level.id.clone())))
-        .collect()
 }

@@ -89,16 +89,67 @@ const POINTS: &[Line] = &[
         [12.0, 1.5],
     ],
 ];
-const DRAW: &[Line] = &[
+const NEW_LAYOUT: &[Line] = &[
     &[
-        [2.0, 14.0],
-        [3.0, 10.0],
-        [11.0, 2.0],
-        [14.0, 5.0],
-        [6.0, 13.0],
-        [2.0, 14.0],
+        [3.0, 1.5],
+        [9.5, 1.5],
+        [13.0, 5.0],
+        [13.0, 14.5],
+        [3.0, 14.5],
+        [3.0, 1.5],
     ],
-    &[[9.0, 4.0], [12.0, 7.0]],
+    &[[9.5, 1.5], [9.5, 5.0], [13.0, 5.0]],
+];
+const START: Line = &[
+    [1.0, 12.0],
+    [4.0, 12.0],
+    [4.0, 15.0],
+    [1.0, 15.0],
+    [1.0, 12.0],
+];
+const LINE_TOOL: &[Line] = &[START, &[[4.0, 12.0], [14.5, 1.5]]];
+const ARC_TOOL: &[Line] = &[
+    START,
+    &[
+        [2.5, 12.0],
+        [3.4, 7.6],
+        [6.0, 4.2],
+        [10.0, 2.1],
+        [14.5, 1.5],
+    ],
+];
+const CURVE_TOOL: &[Line] = &[
+    START,
+    &[
+        [4.0, 12.5],
+        [7.5, 11.5],
+        [8.5, 9.0],
+        [7.5, 6.0],
+        [9.0, 3.0],
+        [14.5, 2.0],
+    ],
+];
+const NODE_TOOL: &[Line] = &[
+    &[
+        [8.0, 4.0],
+        [12.0, 8.0],
+        [8.0, 12.0],
+        [4.0, 8.0],
+        [8.0, 4.0],
+    ],
+    &[[0.5, 8.0], [4.0, 8.0]],
+    &[[12.0, 8.0], [15.5, 8.0]],
+];
+const STATION_TOOL: &[Line] = &[
+    &[
+        [3.0, 2.0],
+        [13.0, 2.0],
+        [13.0, 10.0],
+        [3.0, 10.0],
+        [3.0, 2.0],
+    ],
+    &[[8.0, 10.0], [8.0, 14.5]],
+    &[[4.0, 14.5], [12.0, 14.5]],
 ];
 const MEASURE: &[Line] = &[
     &[
@@ -138,13 +189,18 @@ const FIND: &[Line] = &[LENS, HANDLE];
 /// The lines of a command's icon; `None` if it has none.
 pub(super) fn lines(command: Command) -> Option<&'static [Line]> {
     Some(match command {
+        Command::NewLayout => NEW_LAYOUT,
         Command::Open => OPEN,
         Command::Save => SAVE,
         Command::Undo => UNDO,
         Command::Redo => REDO,
         Command::ToolSelect => SELECT,
         Command::ToolPoints => POINTS,
-        Command::ToolDraw => DRAW,
+        Command::ToolLine => LINE_TOOL,
+        Command::ToolArc => ARC_TOOL,
+        Command::ToolCurve => CURVE_TOOL,
+        Command::ToolNode => NODE_TOOL,
+        Command::ToolStation => STATION_TOOL,
         Command::ToolMeasure => MEASURE,
         Command::ZoomToAll => ZOOM_TO_ALL,
         Command::ZoomIn => ZOOM_IN,

@@ -1,4 +1,4 @@
-//! The Selection section: snapping, and moves, copies and rotations by numbers.
+//! The Selection section: moves, copies and rotations by numbers.
 
 use eframe::egui::{DragValue, Ui};
 use guideway_document::{Elements, text_format};
@@ -7,13 +7,11 @@ use guideway_scene::Table;
 use crate::action::Action;
 use crate::files::OpenFiles;
 use crate::selection::ExactEdit;
-use crate::tools::Tools;
 
 /// Shows the section.
 pub(super) fn show(
     ui: &mut Ui,
     files: &OpenFiles,
-    tools: &mut Tools,
     exact: &mut ExactEdit,
     actions: &mut Vec<Action>,
 ) {
@@ -21,8 +19,6 @@ pub(super) fn show(
         Some(document) => summary(document.selected()),
         None => "An edit is in progress".to_owned(),
     });
-    let snaps = &mut tools.snaps_to_grid;
-    ui.checkbox(snaps, "Snap moves and new points to the grid");
     ui.horizontal(|ui| {
         ui.label("Offset");
         ui.add(DragValue::new(&mut exact.by_x_m).speed(0.1).suffix(" m"));

@@ -11,13 +11,11 @@ use crate::display_settings::DisplaySettings;
 use crate::files::OpenFiles;
 use crate::render_queue::MethodSelection;
 use crate::selection::{ExactEdit, Find};
-use crate::tools::Tools;
 
 /// The parts whose fields the side panel edits.
 pub(crate) struct SidePanel<'a> {
     pub(crate) files: &'a mut OpenFiles,
     pub(crate) floor_plan: &'a mut FloorPlanLayer,
-    pub(crate) tools: &'a mut Tools,
     pub(crate) exact_edit: &'a mut ExactEdit,
     pub(crate) find: &'a mut Find,
     pub(crate) settings: &'a mut DisplaySettings,
@@ -40,8 +38,7 @@ impl SidePanel<'_> {
             self.properties.show(ui, self.files, &mut actions);
         });
         section("Selection", true).show(ui, |ui| {
-            let (tools, exact_edit) = (&mut *self.tools, &mut *self.exact_edit);
-            selection_panel::show(ui, self.files, tools, exact_edit, &mut actions);
+            selection_panel::show(ui, self.files, self.exact_edit, &mut actions);
         });
         section("Find", true).show(ui, |ui| {
             find_panel::show(ui, self.files, self.find, &mut actions);

@@ -60,7 +60,11 @@ fn tool_hint(tool: Tool) -> &'static str {
     match tool {
         Tool::Select => "Click or drag a box to select; drag the selection to move it",
         Tool::Points => "Drag nodes and control points; Insert adds one, Backspace removes it",
-        Tool::Draw => "Click to add points; Enter or a double click finishes the path",
+        Tool::Line => "Click or type points; Enter, a double or a right click finishes",
+        Tool::Arc => "Click start, end and a point between, or type a radius: r2",
+        Tool::Curve => "Click or type points; Enter, a double or a right click finishes",
+        Tool::Node => "Click to create a node, on a path to split it",
+        Tool::Station => "Click a node to put a station there, or a free place",
         Tool::Measure => "Click to add points; a double click starts over",
     }
 }

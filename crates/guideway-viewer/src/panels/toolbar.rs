@@ -9,12 +9,16 @@ use crate::command::{Command, shortcuts_of};
 
 /// The commands of the toolbar, in groups.
 const GROUPS: &[&[Command]] = &[
-    &[Command::Open, Command::Save],
+    &[Command::NewLayout, Command::Open, Command::Save],
     &[Command::Undo, Command::Redo],
     &[
         Command::ToolSelect,
         Command::ToolPoints,
-        Command::ToolDraw,
+        Command::ToolLine,
+        Command::ToolArc,
+        Command::ToolCurve,
+        Command::ToolNode,
+        Command::ToolStation,
         Command::ToolMeasure,
     ],
     &[

@@ -10,7 +10,7 @@ use crate::command::Command;
 use crate::editing::EditTask;
 
 /// Offset of a duplicate on screen, in pixels: far enough to see both.
-const DUPLICATE_OFFSET_PX: f64 = 24.0;
+pub(crate) const DUPLICATE_OFFSET_PX: f64 = 24.0;
 
 /// The edit of a command on the selection; `None` for other commands.
 pub(crate) fn selection_command(command: Command, view: Option<&View>) -> Option<EditTask> {

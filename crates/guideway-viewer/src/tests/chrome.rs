@@ -74,9 +74,9 @@ fn right_click_keeps_a_selection_that_it_is_in() {
 #[test]
 fn toolbar_selects_tools_and_greys_out_what_is_impossible() {
     let mut window = TestWindow::showing(lanes(3));
-    window.harness.get_by_label("Draw a path").click();
+    window.harness.get_by_label("Draw lines").click();
     window.harness.run_steps(2);
-    assert_eq!(window.app().tools.tool(), Tool::Draw);
+    assert_eq!(window.app().tools.tool(), Tool::Line);
     window.harness.get_by_label("Select and move").click();
     window.harness.run_steps(2);
     assert_eq!(window.app().tools.tool(), Tool::Select);

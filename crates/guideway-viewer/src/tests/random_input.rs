@@ -88,11 +88,18 @@ fn resize(window: &mut TestWindow, random: &mut RandomSource) {
 fn press(window: &mut TestWindow, random: &mut RandomSource) {
     let (command, shortcut) = &SHORTCUTS[random.below(SHORTCUTS.len())];
     let geometry = window.document().layout().paths.geometry();
-    let is_too_large = matches!(command, Command::Duplicate | Command::Refine)
-        && geometry.point_count() > MAX_POINTS;
+    let is_too_large = matches!(
+        command,
+        Command::Duplicate | Command::Refine | Command::Paste | Command::Array
+    ) && geometry.point_count() > MAX_POINTS;
     let ends_the_run = matches!(
         command,
-        Command::Quit | Command::Close | Command::Reload | Command::Save | Command::SaveAs
+        Command::Quit
+            | Command::Close
+            | Command::Reload
+            | Command::Save
+            | Command::SaveAs
+            | Command::NewLayout
     );
     if !is_too_large && !ends_the_run {
         window.key(shortcut.modifiers, shortcut.logical_key);

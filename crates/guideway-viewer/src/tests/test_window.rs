@@ -195,6 +195,36 @@ impl TestWindow {
         self.harness.step();
     }
 
+    /// Types a text without a field, and confirms it.
+    pub(super) fn type_line(&mut self, text: &str) {
+        self.harness.event(Event::Text(text.into()));
+        self.harness.step();
+        self.key(Modifiers::NONE, Key::Enter);
+    }
+
+    pub(super) fn right_click(&mut self, at: Pos2) {
+        self.harness.event(Event::PointerMoved(at));
+        for pressed in [true, false] {
+            self.harness.event(Event::PointerButton {
+                pos: at,
+                button: PointerButton::Secondary,
+                pressed,
+                modifiers: Modifiers::NONE,
+            });
+        }
+        self.harness.run_steps(2);
+    }
+
+    /// Answers the open one-line question.
+    pub(super) fn answer(&mut self, text: &str) {
+        self.harness.run_steps(2);
+        self.key(Modifiers::COMMAND, Key::A);
+        self.harness.event(Event::Text(text.into()));
+        self.harness.run_steps(2);
+        self.key(Modifiers::NONE, Key::Enter);
+        self.harness.run_steps(2);
+    }
+
     pub(super) fn key(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.harness.step();

@@ -112,7 +112,7 @@ fn clicks_and_boxes_select_paths() {
 #[test]
 fn draws_a_path_by_clicks() {
     let mut window = TestWindow::showing(lanes(3));
-    window.key(NONE, Key::D);
+    window.key(NONE, Key::C);
     for (x, y) in [(10.0, 0.0), (13.0, 2.0), (10.0, 4.0)] {
         let at = window.at(x, y);
         window.click(at);

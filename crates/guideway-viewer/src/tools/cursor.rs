@@ -4,7 +4,6 @@ use eframe::egui::CursorIcon;
 use guideway_document::{Document, Hit};
 
 use super::gesture::Gesture;
-use super::tool::Tool;
 use super::tool_set::Tools;
 
 impl Tools {
@@ -14,8 +13,8 @@ impl Tools {
             (Gesture::Move { .. } | Gesture::Node { .. } | Gesture::Handle { .. }, _) => {
                 CursorIcon::Move
             }
-            (_, Tool::Draw | Tool::Measure) => CursorIcon::Crosshair,
-            (_, Tool::Select | Tool::Points) => {
+            (_, tool) if tool.adds_points() => CursorIcon::Crosshair,
+            _ => {
                 let hovered = self.hovered(document);
                 let is_selected =
                     |hit: &Hit| document.is_some_and(|d| d.selection().contains(hit.path));

@@ -18,6 +18,8 @@ pub(crate) enum PointerEvent {
     Cancelled,
     Clicked(Point<f64>, Modifiers),
     DoubleClicked,
+    /// The secondary button went down and up without a drag.
+    SecondaryClicked,
     /// The key that inserts a control point was pressed.
     InsertPoint(Point<f64>),
     /// The key that removes a control point was pressed.

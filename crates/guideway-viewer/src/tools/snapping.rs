@@ -1,9 +1,7 @@
-//! Snapping of points and moves: to nodes, to the grid, to directions.
+//! Snapping of points and moves: to nodes, to places of paths, to the grid, to directions.
 
 use eframe::egui::Modifiers;
-use guideway_document::SnapOptions;
-use guideway_document::decorations::round_step;
-use guideway_scene::View;
+use guideway_document::{SnapOptions, Snapped};
 use guideway_spline::Point;
 
 use super::gesture::Gesture;
@@ -11,20 +9,35 @@ use super::tool_context::ToolContext;
 
 /// With Shift, lines and moves snap to multiples of 360° / 24 = 15°.
 const DIRECTIONS: u32 = 24;
-/// Least distance of snap grid lines on screen, in pixels.
-const MIN_GRID_PX: f64 = 24.0;
 
-/// The position meant by a click or drag at `at_m`: a node near it, a direction (Shift), a grid
-/// point, or `at_m` itself (Alt).
+/// What points and moves snap to, beside nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SnapSettings {
+    /// Places of paths: ends, middles, crossings, feet, tangents.
+    pub(crate) to_objects: bool,
+    pub(crate) to_grid: bool,
+}
+
+impl Default for SnapSettings {
+    fn default() -> Self {
+        Self {
+            to_objects: true,
+            to_grid: false,
+        }
+    }
+}
+
+/// The position meant by a click or drag at `at_m`: a node, a place of a path, a direction (Shift),
+/// a grid point, or `at_m` itself (Alt).
 pub(super) fn snap_point(
     context: &ToolContext<'_>,
     gesture: &Gesture,
-    to_grid: bool,
+    snaps: SnapSettings,
     at_m: Point<f64>,
     modifiers: Modifiers,
-) -> Point<f64> {
+) -> Snapped {
     let Some(document) = context.document.filter(|_| !modifiers.alt) else {
-        return at_m;
+        return Snapped { at_m, to: None };
     };
     let (from_m, moving_node) = match gesture {
         Gesture::Points(points) => (points.last().copied(), None),
@@ -32,10 +45,14 @@ pub(super) fn snap_point(
         Gesture::Node { node, from_m, .. } => (Some(*from_m), Some(*node)),
         _ => (None, None),
     };
+    // The path of a dragged point is no target for it.
+    let drags = matches!(gesture, Gesture::Handle { .. } | Gesture::Node { .. });
+    let to_objects = snaps.to_objects && !drags;
     let snap = SnapOptions {
         node_reach_m: Some(context.hit_radius_m()),
         moving_node,
-        grid_m: to_grid.then(|| grid_step_m(&context.view)),
+        object_reach_m: to_objects.then(|| context.hit_radius_m()),
+        grid_m: snaps.to_grid.then_some(context.grid_step_m),
         directions: modifiers.shift.then_some(DIRECTIONS),
     };
     document.snap(&snap, at_m, from_m)
@@ -55,7 +72,7 @@ pub(super) fn snap_to_node(
 /// The translation meant by a drag of `by_m`: a direction (Shift), grid steps, or `by_m` (Alt).
 pub(super) fn snap_move(
     context: &ToolContext<'_>,
-    to_grid: bool,
+    snaps: SnapSettings,
     by_m: Point<f64>,
     modifiers: Modifiers,
 ) -> Point<f64> {
@@ -63,14 +80,9 @@ pub(super) fn snap_move(
         return by_m;
     };
     let snap = SnapOptions {
-        grid_m: to_grid.then(|| grid_step_m(&context.view)),
+        grid_m: snaps.to_grid.then_some(context.grid_step_m),
         directions: modifiers.shift.then_some(DIRECTIONS),
         ..SnapOptions::default()
     };
-    document.snap(&snap, by_m, Some(Point::new(0.0, 0.0)))
-}
-
-/// Distance of snap grid lines: a round number of meters, at least [`MIN_GRID_PX`] on screen.
-fn grid_step_m(view: &View) -> f64 {
-    round_step(MIN_GRID_PX / view.px_per_m())
+    document.snap(&snap, by_m, Some(Point::new(0.0, 0.0))).at_m
 }

@@ -6,7 +6,8 @@ use guideway_spline::Point;
 
 use super::hit_test::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES};
 
-/// View, document and line widths at the time of a pointer event.
+/// View, document and settings at the time of a pointer event.
+#[derive(Clone, Copy)]
 pub(crate) struct ToolContext<'a> {
     pub(crate) view: View,
     /// The active document; `None` while it is loaded or an edit has it.
@@ -14,9 +15,33 @@ pub(crate) struct ToolContext<'a> {
     pub(crate) line_rule: LineRule,
     /// True if nodes and stations are shown, and can be picked.
     pub(crate) picks_symbols: bool,
+    /// Distance of the lines of the grid, in meters.
+    pub(crate) grid_step_m: f64,
 }
 
-impl ToolContext<'_> {
+impl<'a> ToolContext<'a> {
+    /// The same view and settings with a document that an edit has.
+    pub(super) fn of<'b>(&self, document: &'b Document) -> ToolContext<'b> {
+        ToolContext {
+            view: self.view,
+            document: Some(document),
+            line_rule: self.line_rule,
+            picks_symbols: self.picks_symbols,
+            grid_step_m: self.grid_step_m,
+        }
+    }
+
+    /// The same view and settings without a document, to keep for an edit.
+    pub(super) fn detached(&self) -> ToolContext<'static> {
+        ToolContext {
+            view: self.view,
+            document: None,
+            line_rule: self.line_rule,
+            picks_symbols: self.picks_symbols,
+            grid_step_m: self.grid_step_m,
+        }
+    }
+
     pub(super) fn world(&self, at_px: Point<f64>) -> Point<f64> {
         self.view.world_from_pixel(at_px)
     }
@@ -35,7 +60,7 @@ impl ToolContext<'_> {
 
     /// The station or node under the pointer.
     pub(super) fn pick_symbol(&self, at_px: Point<f64>) -> Option<Element> {
-        let document = self.document.filter(|_| self.picks_symbols)?;
+        let document: &'a Document = self.document.filter(|_| self.picks_symbols)?;
         let (at_m, radius_m) = (self.world(at_px), self.hit_radius_m());
         let station = document.station_near(at_m, radius_m).map(Element::Station);
         station.or_else(|| document.node_near(at_m, radius_m).map(Element::Node))

@@ -84,7 +84,7 @@ impl Document {
     }
 
     /// Direction in which a path at a node goes on beyond the node.
-    fn onward(&self, row: u32, node: u32) -> Result<Point<f64>, ShapeError> {
+    pub(super) fn onward(&self, row: u32, node: u32) -> Result<Point<f64>, ShapeError> {
         self.check_rows_exist(Table::Paths, &PathSet::from_iter([row]))?;
         let path = self.layout().paths.get(row as usize);
         let runs = runs_of(path);

@@ -5,12 +5,20 @@ use guideway_scene::EditError;
 use guideway_spline::Point;
 use guideway_spline::construct::ConstructError;
 
+use crate::edit::error::OperationError;
+
 /// Reason why an edit of shapes cannot be done. The document is unchanged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeError {
     /// The scene rejects the edit.
     #[error(transparent)]
     Edit(#[from] EditError),
+    /// A property does not take a value.
+    #[error(transparent)]
+    Property(#[from] OperationError),
+    /// An arc needs more than two points.
+    #[error("two points give no arc: no path at the first one leads on to the second one")]
+    NoArc,
     /// There is no such curve.
     #[error("\"{path}\": {reason}")]
     Curve {
@@ -139,6 +147,8 @@ impl From<ShapeError> for UserError {
     fn from(error: ShapeError) -> Self {
         let (code, remedy) = match &error {
             ShapeError::Edit(_) => ("edit", "Correct the reference or the position"),
+            ShapeError::Property(_) => ("property", "Correct the value"),
+            ShapeError::NoArc => ("curve", "Give a third point, or a radius such as r2"),
             ShapeError::Curve {
                 reason: ConstructError::TooLarge { .. },
                 ..

@@ -10,6 +10,7 @@
 //! | `align` | nodes | nodes on a line, or evenly spaced |
 //! | `fillet`, `arms` | a node at a corner, a radius | an arc between two nodes |
 //! | `connect` | two nodes, tangents | a curve between them: arc or spline |
+//! | `drawing`, `template` | points, a kind of curve, properties | nodes and the paths between them |
 //! | `plan` | parts of a step | [`Change`](crate::Change)s in their order |
 //! | `error` | | why a step cannot be done |
 
@@ -17,15 +18,19 @@ mod align;
 mod arms;
 mod connect;
 mod crossings;
+mod drawing;
 mod error;
 mod fillet;
 mod join;
 mod plan;
 mod split;
 mod straighten;
+mod template;
 mod weld;
 
 pub use align::AlignTo;
 pub use connect::Shape;
+pub use drawing::{Drawing, DrawnCurve};
 pub use error::ShapeError;
+pub use template::EdgeTemplate;
 pub use weld::Welded;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use guideway_layout::Member;
-use guideway_scene::Table;
+use guideway_scene::{PathState, Table};
 use guideway_spline::construct::{Parameter, cut_all, nearest_parameter};
 use guideway_spline::{Bounds, Point, Runs};
 
@@ -65,6 +65,31 @@ impl Document {
         self.perform("split", changes)?;
         self.selection = Arc::new(Elements::of_paths(pieces));
         Ok(nodes)
+    }
+}
+
+impl Document {
+    /// Splits all shown paths that pass within a millimeter of a point, so that what is drawn from
+    /// there is connected. Returns their node; `None` if no path passes there between its ends.
+    ///
+    /// # Errors
+    /// As for other edits.
+    pub fn split_shown_at(&mut self, at_m: Point<f64>) -> Result<Option<u32>, ShapeError> {
+        let spot = Bounds {
+            min: at_m,
+            max: at_m,
+        };
+        let near = self.index.paths_in(spot.inflated(JOIN_M));
+        let is_shown = |path: &u32| self.scene.state(*path) == PathState::Shown;
+        let paths: PathSet = near.filter(is_shown).collect();
+        if paths.is_empty() {
+            return Ok(None);
+        }
+        match self.split_at(&paths, at_m, JOIN_M) {
+            Ok(nodes) => Ok(nodes.first().copied()),
+            Err(ShapeError::NothingNear { .. } | ShapeError::AtEnd { .. }) => Ok(None),
+            Err(error) => Err(error),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Edits of shapes: paths stay on their nodes, and keep their properties.
 
+mod drawing;
 mod ends;
 mod growth;
 mod network;

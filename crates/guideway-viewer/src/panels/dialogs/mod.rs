@@ -14,6 +14,7 @@ mod recent_dialog;
 mod recover_dialog;
 mod settings_dialog;
 mod shortcuts_window;
+mod text_dialog;
 
 use eframe::egui::{Context, Rect};
 
@@ -27,6 +28,7 @@ pub(crate) use prompt::Prompt;
 pub(crate) use recent_dialog::RecentDialog;
 pub(crate) use settings_dialog::SettingsDialog;
 pub(crate) use shortcuts_window::ShortcutsWindow;
+pub(crate) use text_dialog::TextDialog;
 
 use crate::action::Action;
 use crate::files::OpenFiles;
@@ -38,6 +40,7 @@ pub(crate) struct Dialogs {
     pub(crate) prompt: Prompt,
     pub(crate) picker: FilePicker,
     pub(crate) losses: LossDialog,
+    pub(crate) text: TextDialog,
     pub(crate) recent: RecentDialog,
     pub(crate) leave: LeaveDialog,
     pub(crate) confirm: ConfirmDialog,
@@ -58,6 +61,7 @@ impl Dialogs {
         }
         let is_open = self.prompt.is_open()
             || self.losses.is_open()
+            || self.text.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -66,6 +70,7 @@ impl Dialogs {
             || self.about.is_open;
         self.prompt.close();
         self.losses.close();
+        self.text.close();
         self.recent.close();
         self.leave.close();
         self.confirm.close();
@@ -80,6 +85,7 @@ impl Dialogs {
         self.prompt.is_open()
             || self.picker.is_open()
             || self.losses.is_open()
+            || self.text.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -98,6 +104,7 @@ impl Dialogs {
         actions.extend(self.prompt.show(ctx, services));
         actions.extend(self.picker.show(ctx).map(Action::Picked));
         actions.extend(self.losses.show(ctx));
+        actions.extend(self.text.show(ctx));
         actions.extend(self.recent.show(ctx));
         actions.extend(self.leave.show(ctx, files));
         actions.extend(self.confirm.show(ctx));

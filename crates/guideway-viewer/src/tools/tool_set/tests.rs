@@ -36,6 +36,7 @@ impl Bench {
             document: self.slot.document(),
             line_rule: LineRule::default(),
             picks_symbols: false,
+            grid_step_m: 1.0,
         };
         if let Some(ToolEffect::Edit(edit)) = self.tools.handle(event, &context) {
             let repaint: RepaintHandle = Arc::new(|| {});
@@ -84,7 +85,7 @@ fn box_from_the_right_selects_what_it_crosses() {
 #[test]
 fn drawn_path_joins_the_nodes_near_its_ends() {
     let mut bench = Bench::new();
-    bench.tools.select(Tool::Draw);
+    bench.tools.select(Tool::Curve);
     for (x, y) in [(10.0, 0.1), (12.0, 1.0), (10.0, 1.9)] {
         let at = bench.pixel(x, y);
         bench.send(PointerEvent::Clicked(at, NONE));

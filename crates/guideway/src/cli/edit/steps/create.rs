@@ -183,6 +183,7 @@ fn create_station(members: &Members<'_>, document: &mut Document) -> Result<Touc
     let nodes = members.texts("nodes")?.into_iter();
     let nodes = nodes.map(|name| row_named("nodes", Table::Nodes, name, document));
     let nodes: Vec<u32> = nodes.collect::<Result<_, _>>()?;
-    let row = document.create_station(id, &nodes, members.optional_point("at")?)?;
+    let at_m = members.optional_point("at")?;
+    let row = document.create_station(id, &nodes, at_m, None)?;
     Ok(Touched::one(Table::Stations, row, document))
 }

@@ -1,0 +1,185 @@
+//! New layouts, typed input, the clipboard of elements, and edits of the selection by keys.
+
+use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
+use guideway_document::{Document, text_format};
+use guideway_layout::{Layout, Level, UserError};
+use guideway_scene::Table;
+use guideway_spline::{Affine, Point};
+
+use super::basics::tool_context;
+use super::state::App;
+use crate::command::Command;
+use crate::editing::EditTask;
+use crate::selection::{
+    CopiedElements, DUPLICATE_OFFSET_PX, PointerPlace, arrange_command, question, selection_command,
+};
+use crate::services::AppServices;
+use crate::tools::{HIT_RADIUS_PX, KeyAnswer};
+
+/// Name of the only level of a new layout.
+const FIRST_LEVEL: &str = "level 1";
+
+impl App {
+    /// Begins a new layout, beside the open files.
+    pub(super) fn new_layout(&mut self) {
+        let (method, options) = (self.methods.name(), self.settings.scene_options());
+        let files = &mut self.files;
+        files.open_untitled(("untitled", "lif.json"), empty_layout, method, options);
+        self.tools.clear_hover();
+    }
+
+    /// Gives a key to the typed input of the tools. Returns `true` if they took it.
+    pub(super) fn take_typed_key(&mut self, key: Key, modifiers: Modifiers, ctx: &Context) -> bool {
+        let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
+            return false;
+        };
+        let at_px = self.canvas.event_px(ctx);
+        match self.tools.type_key(key, modifiers, &context, at_px) {
+            KeyAnswer::NotTaken => false,
+            KeyAnswer::Taken(effect) => {
+                // Tab does not go to a field then.
+                ctx.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+                self.apply_effect(effect);
+                true
+            }
+        }
+    }
+
+    /// Takes typed text, and the clipboard events by which the window system replaces Ctrl+C,
+    /// Ctrl+X and Ctrl+V. Returns `true` if the event is no longer needed.
+    pub(super) fn take_text(&mut self, event: &Event, ctx: &Context) -> bool {
+        if ctx.text_edit_focused() || self.dialogs.is_modal(&self.files) {
+            return false;
+        }
+        match event {
+            Event::Text(text) => self.files.active().is_some() && self.tools.type_text(text),
+            Event::Paste(text) if self.tools.typed().is_some() => self.tools.type_text(text),
+            // Without selected elements, a text of a panel may be meant.
+            Event::Copy if self.has_selection() => self.perform_taken(Command::Copy, ctx),
+            Event::Cut if self.has_selection() => self.perform_taken(Command::Cut, ctx),
+            Event::Paste(_) => self.perform_taken(Command::Paste, ctx),
+            _ => false,
+        }
+    }
+
+    fn has_selection(&self) -> bool {
+        let document = self.files.document();
+        document.is_some_and(|document| !document.selected().is_empty())
+    }
+
+    fn perform_taken(&mut self, command: Command, ctx: &Context) -> bool {
+        self.perform(command, ctx);
+        true
+    }
+
+    /// Copies the selected elements; the text on the clipboard of the system counts them.
+    pub(super) fn copy_elements(&mut self, cuts: bool, ctx: &Context) {
+        let Some(layer) = self.files.active() else {
+            return;
+        };
+        let Some(document) = layer.document().filter(|_| self.has_selection()) else {
+            return;
+        };
+        let selected = document.selected();
+        let counts = Table::ALL.into_iter().filter_map(|of| {
+            let count = selected.rows(of).len();
+            (count > 0).then(|| text_format::counted(count, of.element()))
+        });
+        let text = counts.collect::<Vec<_>>().join(", ");
+        let from = (!cuts).then(|| layer.path().to_owned());
+        match document.clip(selected) {
+            Ok(clip) => self.copied = Some(CopiedElements::new(clip, from)),
+            Err(error) => return self.dialogs.notices.add(error.to_string()),
+        }
+        ctx.copy_text(format!("Guideway: {text}"));
+        if cuts {
+            self.edit(EditTask::edit(Document::delete_selection));
+        }
+    }
+
+    /// Pastes copied elements: into their own file beside the originals, into others at the same
+    /// place.
+    pub(super) fn paste_elements(&mut self) {
+        let Some(layer) = self.files.active() else {
+            return;
+        };
+        let Some(copied) = &mut self.copied else {
+            let notice = "Nothing is copied; select elements and press Ctrl+C first";
+            return self.dialogs.notices.add(notice);
+        };
+        let px_per_m = self.canvas.camera.view().map(|view| view.px_per_m());
+        let offset_m = px_per_m.map_or(1.0, |px_per_m| DUPLICATE_OFFSET_PX / px_per_m);
+        let paste = copied.paste_into(layer.path(), Point::new(offset_m, -offset_m));
+        self.edit(paste);
+    }
+
+    /// Runs a command that arranges the selection, or asks for the number or name that it needs.
+    pub(super) fn arrange(&mut self, command: Command, ctx: &Context) {
+        self.tools.abort_drag();
+        let Some(document) = self.files.document() else {
+            return;
+        };
+        match question(command, document) {
+            Some(Ok(question)) => return self.dialogs.text.ask(question),
+            Some(Err(error)) => return self.dialogs.notices.add(error.to_string()),
+            None => {}
+        }
+        let view = self.canvas.camera.view();
+        let pointer = self
+            .canvas
+            .event_px(ctx)
+            .zip(view)
+            .map(|(at_px, view)| PointerPlace {
+                at_m: view.world_from_pixel(at_px),
+                reach_m: HIT_RADIUS_PX / view.px_per_m(),
+            });
+        if let Some(task) = arrange_command(command, pointer) {
+            self.edit(task);
+        }
+    }
+
+    /// Moves the selection by one step of the grid in the direction of an arrow key. Returns
+    /// `false` if nothing is selected.
+    pub(super) fn nudge(&mut self, command: Command) -> bool {
+        let Some(view) = self.canvas.camera.view() else {
+            return false;
+        };
+        if self.tools.tool().adds_points() || !self.has_selection() {
+            return false;
+        }
+        let step_m = self.settings.grid_step_m(&view, self.canvas.px_per_point());
+        let (x, y) = match command {
+            Command::PanLeft => (-1.0, 0.0),
+            Command::PanRight => (1.0, 0.0),
+            Command::PanUp => (0.0, 1.0),
+            _ => (0.0, -1.0),
+        };
+        let by = Affine::translation(Point::new(x, y) * step_m);
+        self.edit(EditTask::edit(move |document: &mut Document| {
+            document.transform_selection("move", by)
+        }));
+        true
+    }
+
+    /// Edits the selection, or takes a step of the history. What a drag has done so far stays.
+    pub(super) fn edit_selection(&mut self, command: Command) {
+        self.tools.abort_drag();
+        let view = self.canvas.camera.view();
+        if let Some(task) = selection_command(command, view.as_ref()) {
+            self.edit(task);
+        }
+    }
+}
+
+/// A layout of one level.
+#[expect(clippy::unnecessary_wraps, reason = "the form of `MakeLayout`")]
+fn empty_layout(_: &dyn AppServices) -> Result<Layout, UserError> {
+    let level = Level {
+        id: FIRST_LEVEL.to_owned(),
+        ..Level::default()
+    };
+    Ok(Layout {
+        levels: vec![level],
+        ..Layout::default()
+    })
+}

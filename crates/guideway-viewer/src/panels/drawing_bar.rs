@@ -1,0 +1,118 @@
+//! The drawing bar: current level, snapping, grid step, and the properties of new paths.
+
+use eframe::egui::{ComboBox, DragValue, Id, Ui};
+use guideway_document::Document;
+use guideway_layout::Direction;
+
+use super::new_edges::NewEdgesPanel;
+use crate::action::Action;
+use crate::display_settings::DisplaySettings;
+use crate::editing::EditTask;
+use crate::files::OpenFiles;
+use crate::tools::Tools;
+
+/// Steps of the grid to choose from, in meters.
+const GRID_STEPS_M: [f64; 8] = [0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0];
+
+/// The parts whose fields the bar edits.
+pub(crate) struct DrawingBar<'a> {
+    pub(crate) files: &'a OpenFiles,
+    pub(crate) tools: &'a mut Tools,
+    pub(crate) settings: &'a mut DisplaySettings,
+    pub(crate) new_edges: &'a mut NewEdgesPanel,
+}
+
+impl DrawingBar<'_> {
+    /// Shows the bar and returns the actions of clicks.
+    pub(crate) fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        ui.horizontal(|ui| {
+            let document = self.files.document();
+            if let Some(document) = document.filter(|d| !d.layout().levels.is_empty()) {
+                show_level(ui, document, &mut actions);
+                ui.separator();
+            }
+            ui.label("Snap to");
+            ui.checkbox(&mut self.tools.snaps.to_objects, "paths")
+                .on_hover_text(
+                    "Ends, middles, crossings, tangents and perpendiculars; Alt snaps to nothing",
+                );
+            let grid = ui.checkbox(&mut self.tools.snaps.to_grid, "grid of");
+            self.show_grid_step(ui, grid.id);
+            ui.separator();
+            let template = &self.tools.template;
+            let types: Vec<&str> = (template.vehicle_types.iter())
+                .map(|(name, _)| name.as_str())
+                .collect();
+            let types = match types.is_empty() {
+                true => "all vehicle types".to_owned(),
+                false => types.join(", "),
+            };
+            let direction = match template.direction {
+                Direction::Forward => "one-way",
+                Direction::Both => "two-way",
+            };
+            let text = format!("New paths: {direction}, {types}");
+            let button = ui.selectable_label(self.new_edges.is_open, text);
+            if button
+                .on_hover_text("Direction, vehicle types and speeds of what is drawn")
+                .clicked()
+            {
+                self.new_edges.is_open ^= true;
+            }
+        });
+        self.new_edges
+            .show(ui.ctx(), self.files.document(), &mut self.tools.template);
+        actions
+    }
+
+    /// The step of the grid: chosen, typed, or following the scale.
+    fn show_grid_step(&mut self, ui: &mut Ui, label: Id) {
+        let step_m = &mut self.settings.grid_step_m;
+        let text = |step_m: Option<f64>| match step_m {
+            Some(step_m) => format!("{step_m} m"),
+            None => "any scale".to_owned(),
+        };
+        ComboBox::from_id_salt("grid step")
+            .selected_text(text(*step_m))
+            .width(80.0)
+            .show_ui(ui, |ui| {
+                let each = GRID_STEPS_M.map(Some).into_iter();
+                for choice in std::iter::once(None).chain(each) {
+                    ui.selectable_value(step_m, choice, text(choice));
+                }
+                if let Some(step_m) = step_m {
+                    let value = DragValue::new(step_m).speed(0.01).suffix(" m");
+                    ui.add(value.range(0.001..=1000.0)).labelled_by(label);
+                }
+            })
+            .response
+            .labelled_by(label);
+    }
+}
+
+/// The level that is shown and drawn on.
+fn show_level(ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
+    let name = |row: u32| {
+        let level = &document.layout().levels[row as usize];
+        level.name.clone().unwrap_or_else(|| level.id.clone())
+    };
+    let shown = document.level();
+    let text = shown.map_or_else(|| "all".to_owned(), name);
+    let label = ui.label("Level");
+    ComboBox::from_id_salt("level")
+        .selected_text(text)
+        .show_ui(ui, |ui| {
+            let each = (0..document.layout().levels.len() as u32).map(Some);
+            for level in std::iter::once(None).chain(each) {
+                let text = level.map_or_else(|| "all".to_owned(), name);
+                if ui.selectable_label(shown == level, text).clicked() {
+                    let show = EditTask::view_change(move |document| document.show_level(level));
+                    actions.push(Action::Edit(show));
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id)
+        .on_hover_text("Shows this level only, and draws on it");
+}

@@ -1,0 +1,141 @@
+//! The New paths window: direction, greatest speed and vehicle types of what is drawn.
+
+use eframe::egui::{Context, DragValue, TextEdit, Window};
+use guideway_document::{Document, EdgeTemplate};
+use guideway_layout::Direction;
+
+/// The window, and the text of its vehicle types.
+#[derive(Default)]
+pub(crate) struct NewEdgesPanel {
+    pub(crate) is_open: bool,
+    types: String,
+    /// What is wrong with the text.
+    error: Option<String>,
+}
+
+impl NewEdgesPanel {
+    /// Shows the window if it is open, and changes the template.
+    pub(super) fn show(
+        &mut self,
+        ctx: &Context,
+        document: Option<&Document>,
+        template: &mut EdgeTemplate,
+    ) {
+        let mut is_open = self.is_open;
+        let window = Window::new("New paths").open(&mut is_open);
+        window.resizable(false).show(ctx, |ui| {
+            let mut is_two_way = template.direction == Direction::Both;
+            ui.checkbox(&mut is_two_way, "Two-way");
+            template.direction = match is_two_way {
+                true => Direction::Both,
+                false => Direction::Forward,
+            };
+            ui.horizontal(|ui| {
+                let mut has_speed = template.max_speed.is_some();
+                ui.checkbox(&mut has_speed, "Greatest speed");
+                let mut speed = template.max_speed.unwrap_or(1.0);
+                if has_speed {
+                    let value = DragValue::new(&mut speed).speed(0.05).suffix(" m/s");
+                    ui.add(value.range(0.01..=100.0));
+                }
+                template.max_speed = has_speed.then_some(speed);
+            });
+            let label = ui.label("Vehicle types, each with a greatest speed in m/s if it has one");
+            let field = TextEdit::singleline(&mut self.types)
+                .hint_text("tugger: 1.5, stacker: 1.2")
+                .desired_width(260.0);
+            if ui.add(field).labelled_by(label.id).changed() {
+                match read_types(&self.types) {
+                    Ok(types) => (template.vehicle_types, self.error) = (types, None),
+                    Err(error) => self.error = Some(error),
+                }
+            }
+            if let Some(error) = &self.error {
+                ui.colored_label(ui.visuals().error_fg_color, error);
+            }
+            ui.small("Without vehicle types, all may use the paths");
+            let selected = document.and_then(|document| {
+                let path = document.selection().min()?;
+                Some((document, path))
+            });
+            let like = ui.add_enabled(
+                selected.is_some(),
+                eframe::egui::Button::new("As the selected path"),
+            );
+            if let (true, Some((document, path))) = (like.clicked(), selected) {
+                *template = document.template_of(path);
+                (self.types, self.error) = (types_text(&template.vehicle_types), None);
+            }
+        });
+        self.is_open = is_open;
+    }
+}
+
+/// Vehicle types with their speeds: `tugger: 1.5, stacker`.
+///
+/// # Errors
+/// What is wrong with a speed or a name.
+fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
+    let mut types: Vec<(String, Option<f64>)> = Vec::new();
+    for part in text
+        .split(',')
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+    {
+        let (name, speed) = match part.rsplit_once(':') {
+            Some((name, speed)) => {
+                let value = speed.trim().parse::<f64>().ok();
+                let value = value.filter(|speed| speed.is_finite() && *speed > 0.0);
+                let value = value.ok_or_else(|| {
+                    let speed = speed.trim();
+                    format!("`{speed}` is no speed above 0; write `tugger: 1.5`")
+                })?;
+                (name.trim(), Some(value))
+            }
+            None => (part, None),
+        };
+        if name.is_empty() {
+            return Err(format!("`{part}` has no name before the colon"));
+        }
+        if types.iter().any(|(other, _)| other == name) {
+            return Err(format!("`{name}` is there twice"));
+        }
+        types.push((name.to_owned(), speed));
+    }
+    Ok(types)
+}
+
+fn types_text(types: &[(String, Option<f64>)]) -> String {
+    let text = |(name, speed): &(String, Option<f64>)| match speed {
+        Some(speed) => format!("{name}: {speed}"),
+        None => name.clone(),
+    };
+    types.iter().map(text).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn types_are_read_as_they_are_written() {
+        let types = read_types(" tugger: 1.5, stacker ,").unwrap();
+        assert_eq!(
+            types,
+            [
+                ("tugger".to_owned(), Some(1.5)),
+                ("stacker".to_owned(), None)
+            ]
+        );
+        assert_eq!(types_text(&types), "tugger: 1.5, stacker");
+        for (text, part) in [
+            ("tugger: fast", "`fast` is no speed"),
+            ("tugger: 0", "`0` is no speed"),
+            (": 1", "has no name"),
+            ("a, a", "`a` is there twice"),
+        ] {
+            let error = read_types(text).unwrap_err();
+            assert!(error.contains(part), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Commands that need a number or a name: fillet, weld, distribute, array, level, rename.
+
+use guideway_document::{Document, Element, Elements, ShapeError};
+use guideway_layout::UserError;
+use guideway_scene::Table;
+use guideway_spline::Point;
+
+use super::arrange::{corners, selected_nodes, selected_paths};
+use crate::command::Command;
+use crate::editing::EditTask;
+
+/// The question for what a command needs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct TextQuestion {
+    pub(crate) command: Command,
+    pub(crate) label: String,
+    /// The suggested text.
+    pub(crate) text: String,
+}
+
+/// The question of a command; `None` for commands that need nothing typed.
+///
+/// # Errors
+/// When nothing suitable is selected.
+pub(crate) fn question(
+    command: Command,
+    document: &Document,
+) -> Option<Result<TextQuestion, UserError>> {
+    let ask = |label: &str, text: &str| {
+        Ok(TextQuestion {
+            command,
+            label: label.to_owned(),
+            text: text.to_owned(),
+        })
+    };
+    Some(match command {
+        Command::Fillet => corners(document).and_then(|_| ask("Radius of the corner, in m", "1")),
+        Command::Weld => {
+            selected_paths(document).and_then(|_| ask("Weld ends within, in m", "0.05"))
+        }
+        Command::Distribute => ask("Distance from node to node, in m; empty keeps the ends", ""),
+        Command::Array => something(document)
+            .and_then(|()| ask("Number of copies, and the step x, y in m", "1, 1, 0")),
+        Command::MoveToLevel => something(document).and_then(|()| {
+            let names = level_names(document).join(", ");
+            ask(&format!("Level, one of: {names}"), "")
+        }),
+        Command::Rename => {
+            let element = only_element(document.selected());
+            element.and_then(|element| ask("New name", element.id(document.layout())))
+        }
+        _ => return None,
+    })
+}
+
+/// The edit of a command with the answer to its question.
+///
+/// # Errors
+/// What is wrong with the text.
+pub(crate) fn prompted_edit(command: Command, text: &str) -> Result<EditTask, String> {
+    let text = text.trim().to_owned();
+    Ok(match command {
+        Command::Fillet => {
+            let [radius_m] = numbers(&text)?;
+            EditTask::edit(move |document: &mut Document| {
+                for node in corners(document)? {
+                    document.fillet_at(node, radius_m)?;
+                }
+                Ok::<(), UserError>(())
+            })
+        }
+        Command::Weld => {
+            let [tolerance_m] = numbers(&text)?;
+            EditTask::edit(move |document: &mut Document| {
+                let paths = selected_paths(document)?;
+                let welded = document.weld(&paths, tolerance_m);
+                welded.map(drop).map_err(UserError::from)
+            })
+        }
+        Command::Distribute => {
+            let spacing_m = match text.is_empty() {
+                true => None,
+                false => Some(numbers::<1>(&text)?[0]),
+            };
+            EditTask::edit(move |document: &mut Document| {
+                let nodes = selected_nodes(document);
+                let distributed = document.distribute_nodes(&nodes, spacing_m);
+                distributed.map_err(UserError::from)
+            })
+        }
+        Command::Array => {
+            let [count, x_m, y_m] = numbers(&text)?;
+            let count = copies(count)?;
+            EditTask::edit(move |document: &mut Document| {
+                let selected = document.selected().clone();
+                document
+                    .copy(&selected, count, Point::new(x_m, y_m))
+                    .map(drop)
+            })
+        }
+        Command::MoveToLevel => EditTask::edit(move |document: &mut Document| {
+            let level = level_named(document, &text)?;
+            let selected = document.selected().clone();
+            let moved = document.set_level(&selected, Some(level));
+            moved.map_err(|error| error.to_string())?;
+            // What is on another level now is no longer shown.
+            document.show_level(document.level());
+            Ok::<(), String>(())
+        }),
+        Command::Rename => EditTask::edit(move |document: &mut Document| {
+            let element = only_element(document.selected())?;
+            let (of, row) = match element {
+                Element::Path(row) => (Table::Paths, row),
+                Element::Node(row) => (Table::Nodes, row),
+                Element::Station(row) => (Table::Stations, row),
+            };
+            let renamed = document.rename(of, row, &text);
+            renamed.map_err(|error| UserError::from(ShapeError::from(error)))
+        }),
+        _ => return Err("this command needs no text".to_owned()),
+    })
+}
+
+/// Most copies of one array.
+const MAX_COPIES: f64 = 1000.0;
+
+fn copies(count: f64) -> Result<u32, String> {
+    let is_count = count.fract() == 0.0 && (1.0..=MAX_COPIES).contains(&count);
+    match is_count {
+        true => Ok(count as u32),
+        false => Err(format!(
+            "{count} is no number of copies; type a whole number from 1 to {MAX_COPIES}"
+        )),
+    }
+}
+
+/// The numbers of a text, separated by commas, semicolons or blanks.
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let is_separator = |sign: char| sign.is_whitespace() || ",;".contains(sign);
+    let parts = text.split(is_separator).filter(|part| !part.is_empty());
+    let number = |part: &str| {
+        let value = part.parse::<f64>().ok().filter(|value| value.is_finite());
+        value.ok_or_else(|| format!("`{part}` is no number; write it as 1.5"))
+    };
+    let found: Vec<f64> = parts.map(number).collect::<Result<_, _>>()?;
+    let count = found.len();
+    found.try_into().map_err(|_| match N {
+        1 => format!("type one number, not {count}"),
+        _ => format!("type {N} numbers, separated by commas, not {count}"),
+    })
+}
+
+fn something(document: &Document) -> Result<(), UserError> {
+    match document.selected().is_empty() {
+        true => Err(nothing_selected()),
+        false => Ok(()),
+    }
+}
+
+fn nothing_selected() -> UserError {
+    let remedy = "Click a path, node or station first";
+    UserError::new("selection", "nothing is selected", remedy)
+}
+
+/// The selected element, if it is the only one.
+fn only_element(selected: &Elements) -> Result<Element, UserError> {
+    let mut all = (selected.paths.iter().map(Element::Path))
+        .chain(selected.nodes.iter().map(Element::Node))
+        .chain(selected.stations.iter().map(Element::Station));
+    match (all.next(), all.next()) {
+        (Some(element), None) => Ok(element),
+        (None, _) => Err(nothing_selected()),
+        _ => Err(UserError::new(
+            "selection",
+            "several elements are selected, and a name is for one",
+            "Select one of them",
+        )),
+    }
+}
+
+fn level_names(document: &Document) -> Vec<&str> {
+    let levels = document.layout().levels.iter();
+    levels
+        .map(|level| level.name.as_deref().unwrap_or(&level.id))
+        .collect()
+}
+
+fn level_named(document: &Document, name: &str) -> Result<u32, String> {
+    let level = document.layout().level_named(name);
+    level.ok_or_else(|| {
+        let names = level_names(document).join(", ");
+        format!("there is no level `{name}`; the levels are: {names}")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_counted_and_read() {
+        assert_eq!(numbers("3, 2.5; -1"), Ok([3.0, 2.5, -1.0]));
+        assert_eq!(numbers::<1>(" 0.05 "), Ok([0.05]));
+        for (text, part) in [("", "not 0"), ("1, 2", "not 2"), ("1, x, 2", "`x`")] {
+            let error = numbers::<3>(text).unwrap_err();
+            assert!(error.contains(part), "{text}: {error}");
+        }
+        assert!(copies(2.5).is_err() && copies(0.0).is_err() && copies(1e9).is_err());
+        assert_eq!(copies(12.0), Ok(12));
+    }
+}

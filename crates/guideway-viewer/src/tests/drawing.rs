@@ -1,0 +1,295 @@
+//! Drawing by clicks and typed texts: lines, arcs, curves, nodes, stations, snapping.
+
+use eframe::egui::{Event, Key, Modifiers, PointerButton};
+use guideway_document::Document;
+use guideway_scene::Table;
+use guideway_spline::Point;
+
+use super::services::{TestServices, lanes};
+use super::test_window::{TestWindow, has_notice};
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+
+/// A window with a new layout.
+fn new_layout() -> TestWindow {
+    let mut window = TestWindow::open(&TestServices::with([]), &[], Some("cpu"));
+    window.key(CTRL, Key::N);
+    window.wait(|app| app.document().is_some());
+    window
+}
+
+fn click(window: &mut TestWindow, x: f64, y: f64) {
+    let at = window.at(x, y);
+    window.click(at);
+}
+
+fn node_at(document: &Document, x: f64, y: f64) -> Option<u32> {
+    document.node_near(Point::new(x, y), 1e-6)
+}
+
+fn ends(document: &Document, row: usize) -> [Option<u32>; 2] {
+    let path = document.layout().paths.get(row);
+    [path.start_node(), path.end_node()]
+}
+
+#[test]
+fn typed_points_are_exact_and_a_right_click_finishes() {
+    let mut window = new_layout();
+    window.key(NONE, Key::D);
+    window.type_line("0,0");
+    window.type_line("5<90");
+    window.type_line("@3,1");
+    // A length goes in the direction of the pointer.
+    let at = window.at(8.0, 6.0);
+    window.harness.event(Event::PointerMoved(at));
+    window.harness.step();
+    window.type_line("2.5");
+    window.right_click(at);
+    let document = window.document();
+    assert_eq!(document.existing(Table::Paths).count(), 3);
+    for (x, y) in [(0.0, 0.0), (0.0, 5.0), (3.0, 6.0), (5.5, 6.0)] {
+        let near = document.node_near(Point::new(x, y), 0.02);
+        assert!(near.is_some(), "a node at {x}, {y}");
+    }
+    assert!(node_at(document, 3.0, 6.0).is_some());
+    window.key(CTRL, Key::Z);
+    assert_eq!(window.document().existing(Table::Nodes).count(), 0);
+}
+
+#[test]
+fn wrong_text_stays_with_its_error_and_escape_closes_it_first() {
+    let mut window = new_layout();
+    window.key(NONE, Key::D);
+    window.type_line("5");
+    let error = |window: &mut TestWindow| {
+        let typed = window.app().tools.typed().cloned();
+        typed.and_then(|typed| typed.error)
+    };
+    assert!(error(&mut window).unwrap().contains("first point"));
+    window.key(NONE, Key::Escape);
+    assert!(window.app().tools.typed().is_none());
+    window.type_line("1,1");
+    window.type_line("5<x");
+    assert!(error(&mut window).unwrap().contains("`x` is no number"));
+    for _ in 0.."x".len() {
+        window.key(NONE, Key::Backspace);
+    }
+    window.type_line("0");
+    window.key(NONE, Key::Enter);
+    assert!(node_at(window.document(), 6.0, 1.0).is_some());
+    // Letters are no commands while a text is typed; Tab opens one without a digit.
+    window.key(NONE, Key::Tab);
+    window.key(NONE, Key::C);
+    assert_eq!(window.app().tools.tool(), crate::tools::Tool::Line);
+}
+
+#[test]
+fn text_and_enter_of_one_frame_count_in_their_order() {
+    let mut window = new_layout();
+    window.key(NONE, Key::D);
+    let enter = [true, false].map(|pressed| Event::Key {
+        key: Key::Enter,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: NONE,
+    });
+    let mut events = Vec::new();
+    for text in ["0,0", "4,0"] {
+        events.extend(text.chars().map(|sign| Event::Text(sign.into())));
+        events.extend(enter.clone());
+    }
+    events.extend(enter.clone());
+    window.harness.input_mut().events.extend(events);
+    window.harness.run_steps(3);
+    assert_eq!(window.document().existing(Table::Paths).count(), 1);
+}
+
+#[test]
+fn arc_by_three_clicks_by_radius_and_on_from_a_path() {
+    let mut window = new_layout();
+    window.key(NONE, Key::O);
+    for text in ["0,0", "4,0", "2,-2"] {
+        window.type_line(text);
+    }
+    assert_eq!(
+        window.document().existing(Table::Paths).count(),
+        1,
+        "it needs no Enter"
+    );
+    window.type_line("10,0");
+    window.type_line("14,0");
+    let at = window.at(12.0, 3.0);
+    window.harness.event(Event::PointerMoved(at));
+    window.harness.step();
+    window.type_line("r1.9");
+    let typed = window.app().tools.typed().cloned().unwrap();
+    assert!(typed.error.unwrap().contains("too small"));
+    window.key(NONE, Key::Escape);
+    window.type_line("r2");
+    let middle = |window: &mut TestWindow, row| {
+        let path = window.document().layout().paths.get(row);
+        path.point_at_m(path.length_m() / 2.0).unwrap()
+    };
+    let bulge = middle(&mut window, 1);
+    assert!(bulge.distance(Point::new(12.0, 2.0)) < 1e-3, "{bulge:?}");
+    // From the end of a path, two points are enough.
+    window.type_line("4,0");
+    window.type_line("6,4");
+    window.key(NONE, Key::Enter);
+    assert_eq!(window.document().existing(Table::Paths).count(), 3);
+    // Without a path there, they are not, and the points stay.
+    window.type_line("30,30");
+    window.type_line("32,31");
+    window.key(NONE, Key::Enter);
+    assert!(has_notice(window.app(), "two points give no arc"));
+    assert!(window.app().tools.has_gesture());
+}
+
+#[test]
+fn curve_leads_through_the_clicked_points() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.key(NONE, Key::C);
+    for (x, y) in [(10.0, 0.0), (8.0, 1.1), (10.0, 4.0)] {
+        click(&mut window, x, y);
+    }
+    window.key(NONE, Key::Enter);
+    let document = window.document();
+    let through = Point::new(8.0, 1.1);
+    let nearest = guideway_document::nearest(document.layout(), 3, through, 1e-4).unwrap();
+    // A click is a whole pixel.
+    assert!(nearest.distance_m < 0.05, "{nearest:?}");
+    assert_eq!(ends(document, 3), [Some(1), Some(5)]);
+}
+
+#[test]
+fn node_tool_splits_paths_and_station_tool_uses_nodes() {
+    let mut window = TestWindow::showing(lanes(2));
+    window.key(NONE, Key::W);
+    click(&mut window, 4.0, 0.0);
+    let document = window.document();
+    assert_eq!(
+        document.existing(Table::Paths).count(),
+        3,
+        "it is in two pieces"
+    );
+    let split = document.selected().nodes.min().unwrap();
+    assert!(
+        document
+            .node_position_m(split)
+            .distance(Point::new(4.0, 0.0))
+            < 0.05
+    );
+    click(&mut window, 4.0, 1.0);
+    let free = window.document().selected().nodes.min().unwrap();
+    assert_ne!(split, free);
+    // A click on a node creates none.
+    let count = window.document().existing(Table::Nodes).count();
+    click(&mut window, 10.0, 2.0);
+    assert_eq!(window.document().existing(Table::Nodes).count(), count);
+
+    window.key(NONE, Key::S);
+    click(&mut window, 10.0, 2.0);
+    let document = window.document();
+    let station = document.selected().stations.min().unwrap();
+    assert_eq!(document.layout().stations.nodes(station), [3]);
+    window.type_line("5,8");
+    let document = window.document();
+    let free = document.selected().stations.min().unwrap();
+    assert!(document.layout().stations.nodes(free).is_empty());
+    assert_eq!(
+        document.station_position_m(free),
+        Some(Point::new(5.0, 8.0))
+    );
+    window.key(NONE, Key::F2);
+    window.answer("dock 7");
+    assert_eq!(window.document().layout().stations.id(free), "dock 7");
+}
+
+#[test]
+fn points_snap_to_places_of_paths_and_alt_suspends_it() {
+    let mut window = TestWindow::showing(lanes(2));
+    window.key(NONE, Key::D);
+    let near = window.at(5.0, 0.05);
+    window.click(near);
+    let far = window.at(5.0, 1.1);
+    window.click(far);
+    window.key(NONE, Key::Enter);
+    let middle = Point::new(5.0, 0.0);
+    let node = window.document().node_near(middle, 1e-3);
+    assert!(node.is_some(), "a node at the middle");
+    // The lane is split there, so that the new path is connected.
+    let at_node = window.document().index().paths_at(node.unwrap());
+    assert_eq!(at_node.count(), 3);
+    for _ in 0..2 {
+        window.key(CTRL, Key::Z);
+    }
+    assert!(!window.document().is_changed());
+    window.click_with(near, Modifiers::ALT);
+    window.click_with(far, Modifiers::ALT);
+    window.key(NONE, Key::Enter);
+    assert_eq!(
+        window.document().node_near(middle, 1e-3),
+        None,
+        "the pointer itself"
+    );
+    assert!(
+        window
+            .document()
+            .node_near(Point::new(5.0, 0.05), 0.03)
+            .is_some()
+    );
+}
+
+#[test]
+fn points_snap_to_the_grid_that_is_shown() {
+    let mut window = new_layout();
+    window.app().tools.snaps.to_grid = true;
+    window.app().settings.grid_step_m = Some(0.25);
+    window.key(NONE, Key::W);
+    click(&mut window, 3.3, 4.1);
+    assert!(node_at(window.document(), 3.25, 4.0).is_some());
+    window.app().settings.grid_step_m = None;
+    let app = window.app();
+    let view = app.canvas.camera.view().unwrap();
+    let step_m = app.settings.grid_step_m(&view, app.canvas.px_per_point());
+    click(&mut window, 1.2 * step_m, 2.1 * step_m);
+    assert!(node_at(window.document(), step_m, 2.0 * step_m).is_some());
+}
+
+#[test]
+fn escape_takes_back_what_is_drawn_and_undo_its_last_point() {
+    let mut window = new_layout();
+    window.key(NONE, Key::C);
+    for (x, y) in [(0.0, 0.0), (3.0, 2.0), (6.0, 0.0)] {
+        click(&mut window, x, y);
+    }
+    window.key(CTRL, Key::Z);
+    assert!(window.app().tools.has_gesture());
+    window.key(NONE, Key::Escape);
+    assert!(!window.app().tools.has_gesture());
+    assert!(!window.document().is_changed());
+    // A right drag pans, and finishes nothing.
+    click(&mut window, 0.0, 0.0);
+    click(&mut window, 5.0, 0.0);
+    let (from, to) = (window.at(2.0, 2.0), window.at(4.0, 3.0));
+    let events = [
+        Event::PointerMoved(from),
+        button(from, true),
+        Event::PointerMoved(to),
+        button(to, false),
+    ];
+    window.harness.input_mut().events.extend(events);
+    window.harness.run_steps(2);
+    assert!(window.app().tools.has_gesture());
+}
+
+fn button(pos: eframe::egui::Pos2, pressed: bool) -> Event {
+    Event::PointerButton {
+        pos,
+        button: PointerButton::Secondary,
+        pressed,
+        modifiers: NONE,
+    }
+}

@@ -1,0 +1,198 @@
+//! From nothing to a valid LIF file, by keys and mouse only: the steps of docs/first-layout.md.
+
+use std::path::Path;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::{By, Queryable};
+use guideway_formats::{ReadOptions, Target, read_bytes};
+use guideway_layout::{CheckOptions, Layout, Severity, Value, check};
+use guideway_scene::Table;
+
+use super::services::TestServices;
+use super::test_window::{TestWindow, has_notice};
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+
+/// Chooses two vehicle types with their speeds for what is drawn.
+fn set_vehicle_types(window: &mut TestWindow) {
+    let bar = "New paths: one-way, all vehicle types";
+    window.harness.get_by_label(bar).click();
+    window.harness.run_steps(3);
+    let label = "Vehicle types, each with a greatest speed in m/s if it has one";
+    let field = By::new().role(Role::TextInput).label(label);
+    window.harness.get(field).focus();
+    window.harness.run_steps(2);
+    window
+        .harness
+        .event(Event::Text("tugger: 1.5, stacker: 1.2".into()));
+    window.harness.run_steps(2);
+    window
+        .harness
+        .get_by_label("New paths: one-way, tugger, stacker")
+        .click();
+    window.harness.run_steps(3);
+    window.key(NONE, Key::Escape);
+}
+
+fn draw(window: &mut TestWindow, tool: Key, points: &[&str]) {
+    window.key(NONE, tool);
+    for point in points {
+        window.type_line(point);
+    }
+    window.key(NONE, Key::Enter);
+}
+
+/// A loop with a rounded corner, a second one beside it, and a link.
+fn draw_network(window: &mut TestWindow) {
+    draw(window, Key::D, &["0,0", "10,0", "10,8", "0,8", "0,0"]);
+    window.key(NONE, Key::Escape);
+    let corner = window.at(10.0, 8.0);
+    window.click(corner);
+    window.key(NONE, Key::Q);
+    window.answer("2");
+    // An arc that goes on from the first line, to the left.
+    window.key(NONE, Key::O);
+    window.type_line("10,0");
+    window.type_line("12,2");
+    let at = window.at(12.0, 0.0);
+    window.harness.event(Event::PointerMoved(at));
+    window.harness.step();
+    window.type_line("r2");
+    draw(window, Key::D, &["12,2", "@0,10", "12<180"]);
+    draw(window, Key::C, &["0,12", "-2,10", "0,8"]);
+    window.key(NONE, Key::W);
+    window.type_line("5,0");
+    window.type_line("5,8");
+    draw(window, Key::D, &["5,8", "5,0"]);
+}
+
+fn create_stations(window: &mut TestWindow) {
+    window.key(NONE, Key::S);
+    for place in ["5,0", "12,12", "0,12"] {
+        window.type_line(place);
+    }
+    window.key(NONE, Key::F2);
+    window.answer("dock");
+}
+
+fn written(layout: &Layout, target: Target) -> Layout {
+    let mut bytes = Vec::new();
+    let losses = target.write(layout, &mut bytes).unwrap();
+    // What LIF 1.0 requires beyond the layout, or derives from its paths, is no loss of content.
+    let is_derived = |loss: &String| {
+        let derived = [
+            "because the format requires one",
+            "are read as those of their paths",
+        ];
+        derived.iter().any(|text| loss.contains(text))
+    };
+    let losses = losses.iter().map(|loss| loss.to_string());
+    let losses: Vec<String> = losses.filter(|loss| !is_derived(loss)).collect();
+    assert!(losses.is_empty(), "{target:?}: {losses:?}");
+    read_bytes("first.lif.json", &bytes, &ReadOptions::default()).unwrap()
+}
+
+#[test]
+fn from_nothing_to_a_valid_lif_file() {
+    let mut window = TestWindow::open(&TestServices::with([]), &[], Some("cpu"));
+    window.key(CTRL, Key::N);
+    window.wait(|app| app.document().is_some());
+    assert_eq!(
+        window.app().files.active().unwrap().name(),
+        "untitled.lif.json"
+    );
+    set_vehicle_types(&mut window);
+    draw_network(&mut window);
+    create_stations(&mut window);
+    let counts = Table::ALL.map(|of| window.document().existing(of).count());
+    assert_eq!(counts, [12, 10, 3], "paths, nodes, stations");
+
+    // The first save asks for a name.
+    window.key(CTRL, Key::S);
+    assert!(!window.app().writer.is_busy());
+    let prompt = window.app().dialogs.prompt.open_mut().unwrap();
+    assert_eq!(prompt.text, "untitled.lif.json");
+    prompt.text = "first.lif.json".into();
+    window.key(NONE, Key::Enter);
+    window.wait(|app| has_notice(app, "Saved first.lif.json"));
+    assert!(!window.app().files.active().unwrap().is_changed());
+    let layout = window.disk.files.lock().unwrap()[Path::new("first.lif.json")].clone();
+    // The next one does not.
+    window.key(NONE, Key::S);
+    window.type_line("30,30");
+    window.key(CTRL, Key::S);
+    assert!(window.app().dialogs.prompt.open_mut().is_none());
+
+    for target in [Target::Lif1, Target::Lif2] {
+        let read = written(&layout, target);
+        let counts = [read.paths.len(), read.nodes.len(), read.stations.len()];
+        assert_eq!(counts, [12, 10, 3], "{target:?}");
+        let found = check(&read, &CheckOptions::default());
+        let found: Vec<String> = (read.diagnostics.iter().chain(found.iter()))
+            .filter(|finding| finding.severity > Severity::Info)
+            .map(|finding| format!("{finding:?}"))
+            .collect();
+        assert!(found.is_empty(), "{target:?}: {found:?}");
+        assert_eq!(read.levels.len(), 1);
+        let types = read.paths.vehicle_types();
+        for row in 0..read.paths.len() {
+            let path = read.paths.get(row);
+            assert!(path.start_node().is_some() && path.end_node().is_some());
+            for (name, speed) in [("tugger", 1.5), ("stacker", 1.2)] {
+                let entry = types.entry_for(row, name).unwrap();
+                let column = types.attributes.get("maxSpeed").unwrap();
+                assert_eq!(column.values.get(entry), Some(Value::Float(speed)));
+            }
+        }
+        let ids: Vec<&str> = (0..3).map(|row| read.stations.id(row)).collect();
+        assert!(ids.contains(&"dock"), "{ids:?}");
+    }
+}
+
+#[test]
+fn new_layouts_lie_beside_open_files_and_close_like_them() {
+    let disk = TestServices::with([
+        ("site.arrow", super::services::lanes(2)),
+        ("untitled.lif.json", super::services::lanes(5)),
+    ]);
+    let mut window = TestWindow::open(&disk, &["site.arrow"], Some("cpu"));
+    window.wait(|app| app.document().is_some());
+    for _ in 0..2 {
+        window.key(CTRL, Key::N);
+        window.wait(|app| app.document().is_some());
+    }
+    let names: Vec<String> = window
+        .app()
+        .files
+        .layers()
+        .iter()
+        .map(|l| l.name())
+        .collect();
+    // A file on disk has the first name.
+    assert_eq!(
+        names,
+        ["site.arrow", "untitled-2.lif.json", "untitled-3.lif.json"]
+    );
+    window.key(CTRL, Key::W);
+    assert_eq!(
+        window.app().files.layers().len(),
+        2,
+        "an empty one closes at once"
+    );
+    draw(&mut window, Key::D, &["0,0", "5,0"]);
+    window.key(CTRL, Key::W);
+    assert!(
+        window
+            .harness
+            .query_by_label("Close without saving")
+            .is_some()
+    );
+    window.key(NONE, Key::Escape);
+    // The name of another file is not taken without a question.
+    window.key(CTRL, Key::S);
+    window.app().dialogs.prompt.open_mut().unwrap().text = "site.arrow".into();
+    window.key(NONE, Key::Enter);
+    assert!(window.harness.query_by_label("Replace it").is_some());
+}

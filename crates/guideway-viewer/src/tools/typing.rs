@@ -1,0 +1,146 @@
+//! Typed input of the tools that add points: keys and texts in the order in which they came.
+
+use eframe::egui::{Key, Modifiers};
+use guideway_document::{DrawnCurve, Snapped};
+use guideway_spline::Point;
+
+use super::tool::Tool;
+use super::tool_context::ToolContext;
+use super::tool_set::{ToolEffect, Tools};
+use super::typed_text::{Typed, TypedText, parse};
+
+/// The answer of the tools to a key.
+pub(crate) enum KeyAnswer {
+    /// The key is none of theirs.
+    NotTaken,
+    Taken(Option<ToolEffect>),
+}
+
+impl Tools {
+    /// The text that is being typed.
+    pub(crate) fn typed(&self) -> Option<&TypedText> {
+        self.typed.as_ref()
+    }
+
+    /// Takes a typed text: the first digit begins one, further signs continue it. Returns `false`
+    /// if the text is none of theirs.
+    pub(crate) fn type_text(&mut self, text: &str) -> bool {
+        if self.typed.is_none() && !self.begins_text(text) {
+            return false;
+        }
+        let typed = self.typed.get_or_insert_default();
+        typed
+            .text
+            .extend(text.chars().filter(|sign| !sign.is_control()));
+        typed.error = None;
+        true
+    }
+
+    /// Takes a key: Tab opens the text, Enter confirms it, Escape closes it.
+    pub(crate) fn type_key(
+        &mut self,
+        key: Key,
+        modifiers: Modifiers,
+        context: &ToolContext<'_>,
+        pointer_px: Option<Point<f64>>,
+    ) -> KeyAnswer {
+        let Some(typed) = &mut self.typed else {
+            let opens = key == Key::Tab && self.tool.adds_points() && modifiers.is_none();
+            if opens {
+                self.typed = Some(TypedText::default());
+            }
+            // The text of the key follows.
+            let begins_radius = key == Key::R && modifiers.is_none() && self.begins_text("r");
+            return match opens || begins_radius {
+                true => KeyAnswer::Taken(None),
+                false => KeyAnswer::NotTaken,
+            };
+        };
+        match key {
+            Key::Enter => return KeyAnswer::Taken(self.confirm_text(context, pointer_px)),
+            Key::Escape => self.typed = None,
+            Key::Backspace => {
+                typed.text.pop();
+                typed.error = None;
+            }
+            // Commands such as Save work, other keys are part of the text.
+            _ if modifiers.command => return KeyAnswer::NotTaken,
+            _ => {}
+        }
+        KeyAnswer::Taken(None)
+    }
+
+    /// Returns `true` if a text begins typed input.
+    fn begins_text(&self, text: &str) -> bool {
+        let is_number = text.starts_with(|sign: char| sign.is_ascii_digit() || ".@".contains(sign));
+        let is_radius = text.starts_with(['r', 'R']) && self.tool == Tool::Arc;
+        (is_number && self.tool.adds_points()) || (is_radius && self.points().len() == 2)
+    }
+
+    /// Adds the point that the text means, or says in its place what is wrong.
+    fn confirm_text(
+        &mut self,
+        context: &ToolContext<'_>,
+        pointer_px: Option<Point<f64>>,
+    ) -> Option<ToolEffect> {
+        let typed = self.typed.as_ref()?;
+        let pointer_m = pointer_px.map(|at_px| context.world(at_px));
+        let effect = match parse(&typed.text) {
+            Ok(Typed::Radius(radius_m)) => self.arc_of(radius_m, pointer_m, context),
+            Ok(typed) => self
+                .place_of(typed, pointer_m)
+                .map(|at_m| self.add_point(Snapped { at_m, to: None }, context)),
+            Err(error) => Err(error),
+        };
+        let error = match effect {
+            Ok(Some(ToolEffect::Refused(error))) | Err(error) => error,
+            Ok(effect) => return effect,
+        };
+        self.typed.get_or_insert_default().error = Some(error);
+        None
+    }
+
+    /// The position that a text means.
+    fn place_of(&self, typed: Typed, pointer_m: Option<Point<f64>>) -> Result<Point<f64>, String> {
+        let last = self.points().last().copied();
+        let last = last.ok_or("this needs a first point; click one, or type x,y");
+        match typed {
+            Typed::Place(at_m) => Ok(at_m),
+            Typed::Offset(by_m) => Ok(last? + by_m),
+            Typed::Polar {
+                length_m,
+                angle_deg,
+            } => {
+                let (sin, cos) = angle_deg.to_radians().sin_cos();
+                Ok(last? + Point::new(cos, sin) * length_m)
+            }
+            Typed::Length(length_m) => {
+                let last = last?;
+                let along = pointer_m.map(|at_m| at_m - last);
+                let along = along.filter(|along| along.norm() > 0.0);
+                let along = along.ok_or("point in the direction, or type length<angle")?;
+                Ok(last + along * (length_m / along.norm()))
+            }
+            Typed::Radius(_) => Err("a radius needs start and end of an arc".to_owned()),
+        }
+    }
+
+    /// The arc of a radius, on the side of the pointer.
+    fn arc_of(
+        &mut self,
+        radius_m: f64,
+        pointer_m: Option<Point<f64>>,
+        context: &ToolContext<'_>,
+    ) -> Result<Option<ToolEffect>, String> {
+        let needs_ends = || "a radius needs start and end of an arc".to_owned();
+        let (Tool::Arc, &[start, end]) = (self.tool, self.points()) else {
+            return Err(needs_ends());
+        };
+        let mut drawing = self.drawing(None).ok_or_else(needs_ends)?;
+        // An arc that bulges to the right of its chord turns to the left.
+        let bulges_left = pointer_m.is_some_and(|at_m| (end - start).cross(at_m - start) > 0.0);
+        let signed_m = if bulges_left { -radius_m } else { radius_m };
+        drawing.curve = DrawnCurve::ArcOfRadius(signed_m);
+        Ok(Some(self.draw(drawing, context)))
+    }
+}
