@@ -15,9 +15,10 @@
 //! | backdrop | floor plan, swept areas | `backdrop` |
 //! | tools | pointer tools and gestures | `tools` |
 //! | selection | search, exact edits, selection commands | `selection` |
+//! | route, compare | the route between two places; changes between two files | `route`, `compare` |
 //! | canvas | camera, input, painting, decorations | `canvas` |
 //! | export | pictures for files and clipboard | `export` |
-//! | panels | menu bar, side panel, dialogs | `panels` |
+//! | panels | menu bar, side panel, table, dialogs | `panels` |
 //! | app | all parts, and the routes between them | `app` |
 
 mod action;
@@ -26,6 +27,7 @@ mod backdrop;
 mod background;
 mod canvas;
 mod command;
+mod compare;
 mod display_settings;
 mod editing;
 mod export;
@@ -34,6 +36,7 @@ mod launch_options;
 mod measure;
 mod panels;
 mod render_queue;
+mod route;
 mod selection;
 mod services;
 #[cfg(test)]

@@ -5,12 +5,14 @@
 //! | start | launch options | [`App`] with all parts | `state` |
 //! | frame | results of threads, input of egui | shown parts, actions | `frame` |
 //! | input | keys and pointer events, in order | commands, events of the tools | `input` |
+//! | pick | pointer events | the file that was clicked | `picking` |
 //! | route | action, command, pointer event | calls of the owning part | `routing` |
 //! | file commands | paths | loads, saves, exports | `file_commands` |
 
 mod file_commands;
 mod frame;
 mod input;
+mod picking;
 mod routing;
 mod state;
 

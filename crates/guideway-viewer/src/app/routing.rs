@@ -10,8 +10,9 @@ use crate::canvas::Canvas;
 use crate::command::Command;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
-use crate::files::{LayerEvent, OpenFiles};
+use crate::files::{Layer, LayerEvent, OpenFiles};
 use crate::panels::dialogs::PromptKind;
+use crate::panels::{BottomView, SideTab};
 use crate::selection::selection_command;
 use crate::tools::{PointerEvent, Tool, ToolContext, ToolEffect};
 
@@ -37,6 +38,7 @@ impl App {
             Action::SelectByQuery(mode) => self.select_by_query(mode),
             Action::Search => self.find.search(self.files.document(), repaint),
             Action::ZoomTo(element) => self.zoom_to(element),
+            Action::FlyTo(file, element) => self.fly_to(file, element),
             Action::Check(options) => {
                 if let Some(layer) = self.files.active_mut() {
                     layer.tasks.check(layer.slot.document(), options, repaint);
@@ -52,6 +54,7 @@ impl App {
                 self.floor_plan.set(&text, services, repaint);
             }
             Action::Activate(index) => self.files.activate(index),
+            Action::MoveLayer { from, to } => self.files.move_layer(from, to),
             Action::Close(index) => self.request_close(index),
             Action::CloseWithoutSaving(index) => {
                 self.dialogs.leave.close();
@@ -99,7 +102,14 @@ impl App {
             Command::Close => self.request_close(self.files.active_index()),
             Command::Quit => self.dialogs.leave.quit(ctx, &self.files),
             Command::NextFile => self.files.activate_next(),
-            Command::Find => self.find.wants_focus = true,
+            Command::Find => {
+                self.side.open(SideTab::Find);
+                self.find.wants_focus = true;
+            }
+            Command::Table => self.bottom.toggle(BottomView::Table),
+            Command::Route => self.bottom.toggle(BottomView::Route),
+            Command::Compare => self.bottom.toggle(BottomView::Compare),
+            Command::SidePanel => self.side.toggle(ctx.content_rect().width()),
             Command::Shortcuts => self.dialogs.shortcuts.is_open ^= true,
             Command::Cancel => self.cancel(ctx),
             Command::FinishPath => self.finish_path(),
@@ -141,7 +151,6 @@ impl App {
             Command::Dark => {
                 settings.is_dark ^= true;
                 self.apply_theme(ctx);
-                self.recolor();
             }
         }
     }
@@ -189,8 +198,13 @@ impl App {
     fn cancel(&mut self, ctx: &Context) {
         let is_typing = ctx.text_edit_focused();
         self.properties.discard();
+        self.bottom.table.discard();
         release_keyboard(ctx);
         if self.dialogs.close() || is_typing {
+            return;
+        }
+        if self.bottom.picks_places() {
+            self.bottom.route.stop_picking();
             return;
         }
         if self.tools.has_gesture() {
@@ -239,6 +253,12 @@ impl App {
 
     /// Routes a pointer event to the tools.
     pub(super) fn point(&mut self, event: PointerEvent) {
+        if let PointerEvent::Clicked(at_px, _) = event
+            && self.bottom.picks_places()
+        {
+            return self.pick_place(at_px);
+        }
+        self.pick_in_others(&event);
         let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
             if matches!(event, PointerEvent::DragEnded(_)) {
                 self.tools.abort_drag();
@@ -279,6 +299,14 @@ impl App {
         }));
     }
 
+    /// Zooms to an element of a file.
+    fn fly_to(&mut self, file: usize, element: Element) {
+        let document = self.files.layers().get(file).and_then(Layer::document);
+        if let Some(bounds) = document.and_then(|d| d.bounds_of(element)) {
+            self.canvas.camera.zoom_to(bounds);
+        }
+    }
+
     fn select_by_query(&mut self, mode: SelectMode) {
         let Some(layer) = self.files.active_mut() else {
             return;
@@ -315,9 +343,26 @@ fn tool_context<'a>(
     canvas: &Canvas,
     settings: &DisplaySettings,
 ) -> Option<ToolContext<'a>> {
+    match files.active() {
+        Some(layer) => tool_context_of(layer, canvas, settings),
+        None => Some(ToolContext {
+            view: canvas.camera.view()?,
+            document: None,
+            line_rule: settings.line_rule(),
+            picks_symbols: false,
+        }),
+    }
+}
+
+/// The input of the tools in one file; `None` while the canvas has no size.
+pub(super) fn tool_context_of<'a>(
+    layer: &'a Layer,
+    canvas: &Canvas,
+    settings: &DisplaySettings,
+) -> Option<ToolContext<'a>> {
     Some(ToolContext {
         view: canvas.camera.view()?,
-        document: files.document(),
+        document: layer.document(),
         line_rule: settings.line_rule(),
         picks_symbols: settings.has_symbols,
     })

@@ -14,11 +14,11 @@ use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::panels::dialogs::Dialogs;
-use crate::panels::{FindingsPanel, PropertiesPanel};
+use crate::panels::{BottomPanel, FindingsPanel, PropertiesPanel, SideTabs};
 use crate::render_queue::MethodSelection;
 use crate::selection::{ExactEdit, Find};
 use crate::services::AppServices;
-use crate::tools::Tools;
+use crate::tools::{OtherHit, Tools};
 
 /// Longest time that the first frames wait for a picture. On a software renderer every frame
 /// occupies both cores of an office laptop, which the first picture needs; until then the window
@@ -39,6 +39,10 @@ pub(crate) struct App {
     pub(crate) exact_edit: ExactEdit,
     pub(crate) findings: FindingsPanel,
     pub(crate) properties: PropertiesPanel,
+    pub(crate) side: SideTabs,
+    pub(crate) bottom: BottomPanel,
+    /// The path under the pointer in another than the active file.
+    pub(crate) other_hit: Option<OtherHit>,
     pub(crate) dialogs: Dialogs,
     pub(crate) writer: FileWriter,
     pub(crate) clipboard: Clipboard,
@@ -71,6 +75,9 @@ impl App {
             exact_edit: ExactEdit::default(),
             findings: FindingsPanel::default(),
             properties: PropertiesPanel::default(),
+            side: SideTabs::default(),
+            bottom: BottomPanel::default(),
+            other_hit: None,
             dialogs: Dialogs::default(),
             writer: FileWriter::default(),
             clipboard: Clipboard::default(),

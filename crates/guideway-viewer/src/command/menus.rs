@@ -38,6 +38,7 @@ pub(crate) const MENUS: [Menu; 6] = [
             &[Back, Forward],
             &[PanLeft, PanRight, PanUp, PanDown],
             &[NextFile],
+            &[SidePanel, Table],
         ],
     },
     Menu {
@@ -52,6 +53,7 @@ pub(crate) const MENUS: [Menu; 6] = [
         name: "Tool",
         groups: &[
             &[ToolSelect, ToolPoints, ToolDraw, ToolMeasure],
+            &[Route, Compare],
             &[FinishPath, Cancel],
         ],
     },

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::{self, Button, ProgressBar, Ui};
 
+use super::bottom_panel::BottomView;
 use crate::action::Action;
 use crate::command::{Command, MENUS, Menu, shortcuts_of};
 use crate::display_settings::DisplaySettings;
@@ -22,6 +23,10 @@ pub(crate) struct MenuBar<'a> {
     pub(crate) settings: &'a DisplaySettings,
     /// True if swept areas are shown.
     pub(crate) has_swept_areas: bool,
+    /// True if the side panel is shown.
+    pub(crate) has_side_panel: bool,
+    /// The view of the bottom panel that is open.
+    pub(crate) bottom: Option<BottomView>,
     pub(crate) tool: Tool,
 }
 
@@ -124,6 +129,10 @@ impl MenuBar<'_> {
             Command::ThesisRule => self.settings.is_thesis_rule,
             Command::Dark => self.settings.is_dark,
             Command::SweptAreas => self.has_swept_areas,
+            Command::SidePanel => self.has_side_panel,
+            Command::Table => self.bottom == Some(BottomView::Table),
+            Command::Route => self.bottom == Some(BottomView::Route),
+            Command::Compare => self.bottom == Some(BottomView::Compare),
             Command::ToolSelect => self.tool == Tool::Select,
             Command::ToolPoints => self.tool == Tool::Points,
             Command::ToolDraw => self.tool == Tool::Draw,

@@ -6,6 +6,7 @@
 mod cursor;
 mod gesture;
 mod hit_test;
+mod other_hit;
 mod pointer_event;
 mod snapping;
 mod tool;
@@ -14,6 +15,7 @@ mod tool_set;
 
 pub(crate) use gesture::Gesture;
 pub(crate) use hit_test::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES};
+pub(crate) use other_hit::OtherHit;
 pub(crate) use pointer_event::PointerEvent;
 pub(crate) use tool::Tool;
 pub(crate) use tool_context::ToolContext;
