@@ -20,7 +20,9 @@ fn fix_first(document: &mut Document, code: Code) -> String {
     assert!(has_fixes(code));
     let element = found(document, code)[0];
     let proposed = fixes(document, code, element);
-    document.fix(&proposed[0].fix).unwrap();
+    document
+        .fix(&proposed[0].fix)
+        .expect("the fix fits its finding");
     proposed[0].label.clone()
 }
 
@@ -88,12 +90,12 @@ fn all_findings_of_a_kind_are_one_step() {
     }
     let mut document = document_of(layout);
     let elements = found(&document, Code::NodeGap);
-    assert_eq!(elements.len(), 4);
+    assert_eq!(elements.len(), 8, "both ends of four paths");
     let proposed = fix_all(&document, Code::NodeGap, &elements).unwrap();
     document.fix(&proposed.fix).unwrap();
     assert!(found(&document, Code::NodeGap).is_empty());
     document.undo();
-    assert_eq!(found(&document, Code::NodeGap).len(), 4);
+    assert_eq!(found(&document, Code::NodeGap).len(), 8);
     assert_eq!(fix_all(&document, Code::Kink, &elements), None);
 }
 

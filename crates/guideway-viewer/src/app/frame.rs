@@ -16,7 +16,7 @@ use crate::services::LoadStage;
 use crate::tools::PointerEvent;
 
 /// Width of the side panel until the user drags its edge, in points.
-const SIDE_PANEL_WIDTH: f32 = 330.0;
+const SIDE_PANEL_WIDTH: f32 = 340.0;
 const MIN_SIDE_PANEL_WIDTH: f32 = 180.0;
 /// Height of the bottom panel until the user drags its edge, in points.
 const BOTTOM_HEIGHT: f32 = 240.0;

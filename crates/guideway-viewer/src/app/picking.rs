@@ -3,13 +3,14 @@
 use guideway_document::{Document, Element};
 use guideway_spline::Point;
 
-use super::routing::tool_context_of;
 use super::state::App;
+use crate::canvas::Canvas;
 use crate::compare::Changed;
+use crate::display_settings::DisplaySettings;
 use crate::files::Layer;
 use crate::panels::BottomView;
 use crate::route::{FoundRoute, place_of};
-use crate::tools::{MAX_HOVER_CANDIDATES, OtherHit, PointerEvent, Tool};
+use crate::tools::{MAX_HOVER_CANDIDATES, OtherHit, PointerEvent, Tool, ToolContext};
 
 impl App {
     /// Looks under the pointer in the other files where the active one has nothing, and makes the
@@ -142,4 +143,18 @@ impl App {
             .find(|(_, layer)| is_hit(layer))
             .map(|(file, _)| file)
     }
+}
+
+/// The input of the tools in one file; `None` while the canvas has no size.
+pub(super) fn tool_context_of<'a>(
+    layer: &'a Layer,
+    canvas: &Canvas,
+    settings: &DisplaySettings,
+) -> Option<ToolContext<'a>> {
+    Some(ToolContext {
+        view: canvas.camera.view()?,
+        document: layer.document(),
+        line_rule: settings.line_rule(),
+        picks_symbols: settings.has_symbols,
+    })
 }

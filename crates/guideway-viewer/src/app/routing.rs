@@ -4,6 +4,7 @@ use eframe::egui::{Context, Theme};
 use guideway_document::{Document, Element, Elements, SelectMode};
 use guideway_spline::{Bounds, Point};
 
+use super::picking::tool_context_of;
 use super::state::App;
 use crate::action::Action;
 use crate::canvas::Canvas;
@@ -352,20 +353,6 @@ fn tool_context<'a>(
             picks_symbols: false,
         }),
     }
-}
-
-/// The input of the tools in one file; `None` while the canvas has no size.
-pub(super) fn tool_context_of<'a>(
-    layer: &'a Layer,
-    canvas: &Canvas,
-    settings: &DisplaySettings,
-) -> Option<ToolContext<'a>> {
-    Some(ToolContext {
-        view: canvas.camera.view()?,
-        document: layer.document(),
-        line_rule: settings.line_rule(),
-        picks_symbols: settings.has_symbols,
-    })
 }
 
 /// Takes the keyboard focus from a text field, so that shortcuts work again.

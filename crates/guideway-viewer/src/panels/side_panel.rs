@@ -115,7 +115,8 @@ impl SidePanel<'_> {
 
     fn show_tabs(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
+            ui.spacing_mut().item_spacing.x = 1.0;
+            ui.spacing_mut().button_padding.x = 5.0;
             for tab in SideTab::ALL {
                 let title = match tab {
                     SideTab::Findings => FindingsPanel::title(self.files),

@@ -71,6 +71,14 @@ pub(super) struct TypedCell {
     pub(super) text: String,
 }
 
+/// A text that is being typed into a cell.
+pub(super) struct CellDraft {
+    pub(super) cell: TypedCell,
+    pub(super) before: String,
+    /// True in the first frame of the field.
+    pub(super) is_new: bool,
+}
+
 /// The edit of one cell.
 ///
 /// # Errors

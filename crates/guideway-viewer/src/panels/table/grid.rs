@@ -1,15 +1,14 @@
 //! The visible cells of the table: header, rows, and the field of the cell that is edited.
 
 use eframe::egui::{
-    Button, Id, Key, Label, Rect, RichText, ScrollArea, Sense, TextEdit, TextWrapMode, Ui,
-    UiBuilder, Vec2, pos2,
+    self, Align, Button, Id, Key, Label, Rect, RichText, ScrollArea, Sense, TextEdit, TextWrapMode,
+    Ui, UiBuilder, Vec2, pos2,
 };
 use guideway_document::{Column, PathSet, SelectMode};
 use guideway_layout::Layout;
 use guideway_scene::Table;
 
-use super::cell::cell_text;
-use super::{CellDraft, mode_of};
+use super::cell::{CellDraft, cell_text};
 
 const ROW_HEIGHT: f32 = 20.0;
 const NAME_WIDTH: f32 = 170.0;
@@ -194,13 +193,15 @@ impl CellGrid<'_> {
             }
             if self.cursor == Some((row, index)) {
                 let stroke = ui.visuals().selection.stroke;
-                let inside = eframe::egui::StrokeKind::Inside;
+                let inside = egui::StrokeKind::Inside;
                 ui.painter().rect_stroke(cell, 0.0, stroke, inside);
             }
             let text = cell_text(self.layout, self.of, column, row);
             if !text.is_empty() {
                 let label = Label::new(text).truncate().selectable(false);
-                ui.put(cell.shrink2(Vec2::new(PADDING, 0.0)), label);
+                let inside = UiBuilder::new().max_rect(cell.shrink2(Vec2::new(PADDING, 0.0)));
+                let align = egui::Layout::left_to_right(Align::Center);
+                ui.new_child(inside.layout(align)).add(label);
             }
         }
     }
@@ -226,12 +227,21 @@ fn title_of(column: &Column, layout: &Layout, of: Table) -> String {
         Column::Id => "identifier",
         Column::Start => "from node",
         Column::End => "to node",
-        Column::Length => "length",
+        Column::Length => "drawn length",
         Column::VehicleType => "vehicle types",
         column => column.name(),
     };
     match column.unit(layout, of) {
         Some(unit) => format!("{name} ({unit})"),
         None => name.to_owned(),
+    }
+}
+
+/// The mode of a click on a row.
+fn mode_of(is_command: bool, is_selected: bool) -> SelectMode {
+    match (is_command, is_selected) {
+        (false, _) => SelectMode::Replace,
+        (true, false) => SelectMode::Add,
+        (true, true) => SelectMode::Remove,
     }
 }

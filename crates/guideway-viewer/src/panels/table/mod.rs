@@ -14,10 +14,10 @@ mod paste;
 mod rows;
 
 use eframe::egui::{Event, TextEdit, Ui};
-use guideway_document::{Column, Document, Elements, PathSet, SelectMode, text_format};
+use guideway_document::{Column, Document, Elements, PathSet, text_format};
 use guideway_scene::Table;
 
-use self::cell::TypedCell;
+use self::cell::{CellDraft, TypedCell};
 use self::grid::{CellGrid, GridEvent};
 use self::rows::{RowsKey, TableRows};
 use crate::action::Action;
@@ -41,14 +41,6 @@ pub(crate) struct TablePanel {
     seen: Option<u32>,
     /// True if the last press of the pointer was in the table, which then takes pasted text.
     has_input: bool,
-}
-
-/// A text that is being typed into a cell.
-pub(super) struct CellDraft {
-    cell: TypedCell,
-    before: String,
-    /// True in the first frame of the field.
-    is_new: bool,
 }
 
 impl Default for TablePanel {
@@ -314,13 +306,4 @@ fn columns(document: &Document, of: Table) -> Vec<Column> {
         Column::Attribute(_) => 8,
     });
     columns
-}
-
-/// The mode of a click on a row.
-fn mode_of(is_command: bool, is_selected: bool) -> SelectMode {
-    match (is_command, is_selected) {
-        (false, _) => SelectMode::Replace,
-        (true, false) => SelectMode::Add,
-        (true, true) => SelectMode::Remove,
-    }
 }
