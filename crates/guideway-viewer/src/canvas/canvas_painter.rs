@@ -60,6 +60,9 @@ impl CanvasPainter<'_> {
         self.paint_picture(painter, self.floor_plan.shown(), 1.0);
         list(self.settings.grid(&self.view, px_per_point));
         self.paint_picture(painter, self.swept_areas.shown(), 1.0);
+        if let Some((route, _)) = self.route {
+            self.sheet(painter).route_area(route, background);
+        }
         for layer in self.files.visible() {
             let shown = layer.picture.shown().filter(|_| layer.look.has_paths);
             let shown = shown.map(|shown| (&shown.texture, &shown.view));
@@ -164,16 +167,20 @@ impl CanvasPainter<'_> {
         }
     }
 
+    fn sheet<'p>(&'p self, painter: &'p Painter) -> Sheet<'p> {
+        Sheet {
+            painter,
+            screen: self.screen,
+            view: &self.view,
+        }
+    }
+
     /// Paints the changes of a comparison, and the route.
     fn paint_tools(&self, painter: &Painter) {
         let Some(document) = self.files.document() else {
             return;
         };
-        let sheet = Sheet {
-            painter,
-            screen: self.screen,
-            view: &self.view,
-        };
+        let sheet = self.sheet(painter);
         if let Some((other, changed)) = self.changes {
             sheet.changes(other, document, changed);
         }

@@ -55,7 +55,16 @@ impl Sheet<'_> {
             .add(Shape::convex_polygon(points, fill, stroke));
     }
 
-    /// Paints a route, its swept area, and the vehicle after a part of the way.
+    /// Paints the swept area of a route. Its parts overlap, so they are opaque.
+    pub(super) fn route_area(self, route: &FoundRoute, background: Color32) {
+        let fill = background.lerp_to_gamma(ROUTE_COLOR, AREA_OPACITY);
+        let origin = Point::new(0.0, 0.0);
+        for polygon in &route.area {
+            self.polygon(polygon, origin, fill, Stroke::NONE);
+        }
+    }
+
+    /// Paints a route, and the vehicle after a part of the way.
     pub(super) fn route(
         self,
         document: &Document,
@@ -63,11 +72,6 @@ impl Sheet<'_> {
         driven: f32,
         vehicle: Option<EnvelopeSource>,
     ) {
-        let fill = ROUTE_COLOR.gamma_multiply(AREA_OPACITY);
-        let origin = Point::new(0.0, 0.0);
-        for polygon in &route.area {
-            self.polygon(polygon, origin, fill, Stroke::NONE);
-        }
         let stroke = Stroke::new(ROUTE_WIDTH, ROUTE_COLOR.gamma_multiply(0.7));
         self.outline(document, &route.paths, stroke);
         let length_m = route.track.length_m();
