@@ -33,6 +33,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-spline",
             "guideway-layout",
             "guideway-envelope",
+            "guideway-network",
             "guideway-scene",
             "guideway-document",
             "guideway-compose",

@@ -139,6 +139,7 @@ fn with_backdrop() -> Picture {
             rows: Some(vec![0, 2]),
         }),
         others: vec![scene],
+        ..Backdrop::default()
     };
     picture
 }

@@ -9,6 +9,7 @@
 //! | [`Query`], [`search`], [`locate`] | text | paths, nodes, stations |
 //! | [`measure`] | a path | lengths and radii |
 //! | [`decorations`] | document, view, settings | marks, outlines and draw lists |
+//! | [`fixes()`] | a finding | edits that resolve it |
 //! | `journal` | bytes | [`JournalEntry`]s, and the document that they recover |
 //! | [`Snapshot`] | document | the layout to save, findings |
 //! | [`text_format`] | counts, lengths, names | text for people |
@@ -20,6 +21,7 @@ mod edit;
 mod edit_observer;
 mod element;
 mod elements;
+mod fixes;
 mod history;
 mod index;
 mod journal;
@@ -38,17 +40,18 @@ mod view_history;
 pub use change::{Change, NodeMoves};
 pub use document::Document;
 pub use edit::{
-    AlignTo, Clip, Drawing, DrawnCurve, EdgeTemplate, Neighbors, NewEdge, OperationError, PointRef,
-    PropertyRef, Shape, ShapeError, Welded, drawn_path,
+    AlignTo, Clip, Drawing, DrawnCurve, EdgeTemplate, Neighbors, NewCells, NewEdge, OperationError,
+    PointRef, PropertyRef, Shape, ShapeError, Welded, drawn_path,
 };
 pub use element::Element;
 pub use elements::Elements;
+pub use fixes::{Fix, FixError, ProposedFix, fix_all, fixes, has_fixes};
 pub use history::SavedState;
 pub use index::Index;
 pub use journal::{JournalEntry, ReplayProgress, count_records, replay};
-pub use locate::locate;
+pub use locate::{locate, located};
 pub use pick::{Hit, nearest, pick};
-pub use query::{Query, QueryError};
+pub use query::{Column, Query, QueryError};
 pub use reverse_pairs::ReversePairs;
 pub use roaring::RoaringBitmap as PathSet;
 pub use search::search;

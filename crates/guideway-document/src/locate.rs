@@ -1,15 +1,29 @@
 //! Locates the elements that findings name, and the position of elements.
 
-use guideway_layout::{Layout, Place};
+use guideway_layout::{Layout, Member, Origin, Place};
 use guideway_scene::Table;
 use guideway_spline::Bounds;
 
 use crate::document::Document;
 use crate::element::Element;
 
-/// The path, node or station that a finding of [`guideway_layout::check`] names by identifier or by
-/// number. `None` for a place in a file.
+/// The path, node or station that a finding is about: by its row, else by identifier or number.
+/// `None` for a place in a file.
 pub fn locate(layout: &Layout, place: &Place) -> Option<Element> {
+    located(place).or_else(|| named(layout, place))
+}
+
+/// The path, node or station whose row a finding knows.
+pub fn located(place: &Place) -> Option<Element> {
+    match place.origin? {
+        Origin::Member(Member::Path(row)) => Some(Element::Path(row)),
+        Origin::Member(Member::Node(row)) => Some(Element::Node(row)),
+        Origin::Member(Member::Station(row)) => Some(Element::Station(row)),
+        Origin::Byte(_) => None,
+    }
+}
+
+fn named(layout: &Layout, place: &Place) -> Option<Element> {
     let (kind, rest) = place.element.split_once(' ')?;
     let (count, element): (usize, fn(u32) -> Element) = match kind {
         "path" => (layout.paths.len(), Element::Path),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{CheckOptions, Diagnostics, Layout, NewPath, check};
+use guideway_layout::{CheckOptions, Diagnostics, Layout, Member, NewPath, Origin, check};
 use guideway_scene::Table;
 
 use crate::PathSet;
@@ -52,21 +52,55 @@ impl Snapshot {
             false => check(&self.layout_to_check(), options),
         };
         if self.removed.has_places() {
-            let [nodes, stations] = [Table::Nodes, Table::Stations].map(|of| self.kept(of));
-            found.change_places(|place| {
-                let number = |kind: &str, rows: &[usize]| {
-                    let number = place.element.strip_prefix(kind)?.parse::<usize>().ok()?;
-                    Some(format!("{kind}{}", rows.get(number.checked_sub(1)?)? + 1))
-                };
-                let renumbered = number("node number ", &nodes);
-                let renumbered = renumbered.or_else(|| number("station number ", &stations));
-                if let Some(element) = renumbered {
-                    place.element = element;
-                }
-            });
+            self.restore_rows(&mut found, &[Table::Nodes, Table::Stations]);
         }
         found.append(old.diagnostics.clone());
         found
+    }
+
+    /// Findings of another check, which gets the layout without removed elements. Rows are those
+    /// of the document.
+    pub fn findings_of(&self, check: impl FnOnce(&Layout) -> Diagnostics) -> Diagnostics {
+        if self.removed.is_empty() {
+            return check(&self.layout);
+        }
+        let mut found = check(&self.to_layout());
+        self.restore_rows(&mut found, &Table::ALL);
+        found
+    }
+
+    /// The layout of the document, where removed elements still have a row.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Replaces the rows of a layout that lacks the removed elements of some tables by those of the
+    /// document.
+    fn restore_rows(&self, found: &mut Diagnostics, tables: &[Table]) {
+        for &of in tables {
+            let rows = self.kept(of);
+            let kind = format!("{} number ", of.element());
+            found.change_places(|place| {
+                let kept = |row: u32| rows.get(row as usize).map_or(row, |&row| row as u32);
+                place.origin = place.origin.map(|origin| match (origin, of) {
+                    (Origin::Member(Member::Path(row)), Table::Paths) => {
+                        Origin::Member(Member::Path(kept(row)))
+                    }
+                    (Origin::Member(Member::Node(row)), Table::Nodes) => {
+                        Origin::Member(Member::Node(kept(row)))
+                    }
+                    (Origin::Member(Member::Station(row)), Table::Stations) => {
+                        Origin::Member(Member::Station(kept(row)))
+                    }
+                    (other, _) => other,
+                });
+                let number = place.element.strip_prefix(&*kind);
+                let number = number.and_then(|number| number.parse::<u32>().ok());
+                if let Some(row) = number.and_then(|number| number.checked_sub(1)) {
+                    place.element = format!("{kind}{}", kept(row) + 1);
+                }
+            });
+        }
     }
 
     /// The layout to check: with an empty path in the row of each removed one, and without removed
@@ -110,8 +144,8 @@ impl Snapshot {
         }
     }
 
-    /// The rows of the elements that exist.
-    fn kept(&self, of: Table) -> Vec<usize> {
+    /// The rows of the elements that exist, in the order of [`Self::to_layout`].
+    pub fn kept(&self, of: Table) -> Vec<usize> {
         let removed = match of {
             Table::Paths => &self.removed.paths,
             Table::Nodes => &self.removed.nodes,

@@ -24,6 +24,8 @@ pub(crate) enum Action {
     Search,
     /// Zooms to an element and selects it if it is a path.
     ZoomTo(Element),
+    /// Zooms to an element of the file of this index, which may not be the active one.
+    FlyTo(usize, Element),
     /// Checks the active document.
     Check(CheckOptions),
     /// Opens a layout or a project.
@@ -52,6 +54,8 @@ pub(crate) enum Action {
     PlaceFloorPlan(PlanPlacement),
     /// Edits the file of this index from now on.
     Activate(usize),
+    /// Moves a file in the list of files.
+    MoveLayer { from: usize, to: usize },
     /// Closes the file of this index; asks if it has unsaved changes.
     Close(usize),
     /// Closes the file of this index; its unsaved changes are lost.

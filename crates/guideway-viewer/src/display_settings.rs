@@ -2,7 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use guideway_document::decorations::{DecorationStyle, MarkOptions, grid, grid_step_m};
+use guideway_document::decorations::{
+    DecorationStyle, MarkOptions, MarkedKinds, grid, grid_step_m,
+};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, Style, View};
 use serde::{Deserialize, Serialize};
@@ -24,6 +26,9 @@ pub(crate) enum ThemeChoice {
     #[default]
     System,
 }
+
+/// Color of paths without a color of their own: calm, and readable on light and dark.
+const PATH_COLOR: Rgba = Rgba::opaque(0x5a, 0x6b, 0x7f);
 
 /// The display settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,15 +109,6 @@ impl DisplaySettings {
         }
     }
 
-    /// Color of paths without a color of their own.
-    fn path_color(&self) -> Rgba {
-        if self.is_dark {
-            Rgba::opaque(222, 226, 232)
-        } else {
-            Rgba::BLACK
-        }
-    }
-
     /// Colors and sizes of decorations, at `px_per_point` pixels per point of the screen.
     pub(crate) fn decoration_style(&self, px_per_point: f64) -> DecorationStyle {
         DecorationStyle::new(self.background(), px_per_point)
@@ -126,6 +122,7 @@ impl DisplaySettings {
             arrows: self.has_arrows.then(|| self.line_rule(px_per_point)),
             symbols: self.has_symbols,
             labels: self.has_labels.then_some(label_size),
+            of: MarkedKinds::default(),
         }
     }
 
@@ -146,7 +143,7 @@ impl DisplaySettings {
     /// The options that scenes are made with.
     pub(crate) fn scene_options(&self) -> SceneOptions {
         SceneOptions {
-            color: Some(self.path_color()),
+            color: Some(PATH_COLOR),
             color_by: self.color_by.clone().map(|column| ColorBy { column }),
             level: None,
         }
@@ -154,7 +151,7 @@ impl DisplaySettings {
 
     /// Returns `true` if the scenes of the two settings differ.
     pub(crate) fn needs_other_scene(&self, other: &Self) -> bool {
-        self.is_dark != other.is_dark || self.color_by != other.color_by
+        self.color_by != other.color_by
     }
 
     /// The style of the picture of one file. Its background is transparent: the window paints
@@ -203,9 +200,37 @@ mod tests {
         let settings = DisplaySettings::default();
         let mut wide = settings.clone();
         wide.width_m = 2.0;
-        let mut dark = settings.clone();
-        dark.is_dark = true;
-        assert!(!settings.needs_other_scene(&wide) && settings.needs_other_scene(&dark));
+        let mut colored = settings.clone();
+        colored.color_by = Some("maxSpeed".into());
+        assert!(!settings.needs_other_scene(&wide) && settings.needs_other_scene(&colored));
+    }
+
+    #[test]
+    fn paths_stand_out_on_light_and_dark() {
+        for is_dark in [false, true] {
+            let settings = DisplaySettings {
+                is_dark,
+                ..DisplaySettings::default()
+            };
+            let contrast = contrast(PATH_COLOR, settings.background());
+            // The least contrast of graphics in WCAG 2.1, 1.4.11.
+            assert!(contrast >= 3.0, "{contrast}");
+        }
+    }
+
+    /// Contrast of two colors: WCAG 2.1.
+    fn contrast(a: Rgba, b: Rgba) -> f64 {
+        let linear = |v: u8| {
+            let v = f64::from(v) / 255.0;
+            match v <= 0.04045 {
+                true => v / 12.92,
+                false => ((v + 0.055) / 1.055).powf(2.4),
+            }
+        };
+        let luminance =
+            |c: Rgba| 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+        let [a, b] = [a, b].map(|color| luminance(color) + 0.05);
+        a.max(b) / a.min(b)
     }
 
     #[test]

@@ -19,7 +19,8 @@
 //! | export | pictures for files and clipboard | `export` |
 //! | preferences | what outlives a run | `preferences` |
 //! | project | files and look in one file | `project` |
-//! | panels | menu bar, drawing bar, side panel, dialogs | `panels` |
+//! | route, compare | the route between two places; changes between two files | `route`, `compare` |
+//! | panels | menu bar, drawing bar, side panel, table, dialogs | `panels` |
 //! | app | all parts, and the routes between them | `app` |
 
 mod action;
@@ -28,6 +29,7 @@ mod backdrop;
 mod background;
 mod canvas;
 mod command;
+mod compare;
 mod display_settings;
 mod editing;
 mod export;
@@ -39,6 +41,7 @@ mod panels;
 mod preferences;
 mod project;
 mod render_queue;
+mod route;
 mod selection;
 mod services;
 #[cfg(test)]

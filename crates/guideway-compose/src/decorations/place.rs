@@ -2,7 +2,7 @@
 
 use guideway_document::Document;
 use guideway_document::decorations::{
-    DecorationStyle, Label, MarkOptions, Marks, grid, marks, scale_bar, scale_bar_box,
+    DecorationStyle, Label, MarkOptions, MarkedKinds, Marks, grid, marks, scale_bar, scale_bar_box,
 };
 use guideway_scene::{DrawList, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
@@ -106,6 +106,7 @@ fn visible_marks(
         arrows: decorations.has_arrows.then_some(paths.line_rule),
         symbols: decorations.has_nodes || decorations.has_stations,
         labels: decorations.has_labels.then_some(size),
+        of: MarkedKinds::default(),
     };
     let mut marks = marks(&document, view, &options);
     if !decorations.has_nodes {

@@ -8,6 +8,27 @@ use super::labels::{Label, LabelSize};
 /// Most paths, nodes or stations in a view that still get marks: more are indistinguishable.
 pub const MAX_MARKED: usize = 2_000;
 
+/// The kinds of elements that get marks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MarkedKinds {
+    /// Arrows and names of paths.
+    pub paths: bool,
+    /// Symbols and names of nodes.
+    pub nodes: bool,
+    /// Symbols and names of stations.
+    pub stations: bool,
+}
+
+impl Default for MarkedKinds {
+    fn default() -> Self {
+        Self {
+            paths: true,
+            nodes: true,
+            stations: true,
+        }
+    }
+}
+
 /// Selection of marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarkOptions {
@@ -19,6 +40,8 @@ pub struct MarkOptions {
     pub symbols: bool,
     /// Draws identifiers of paths, nodes and stations in this size.
     pub labels: Option<LabelSize>,
+    /// Kinds of elements that get marks at all.
+    pub of: MarkedKinds,
 }
 
 /// A direction arrow on a path.

@@ -38,7 +38,7 @@ pub use grid::{grid, grid_step_m};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use legend::{Corner, legend};
-pub use marks::{Arrow, MAX_MARKED, MarkOptions, Marks};
+pub use marks::{Arrow, MAX_MARKED, MarkOptions, MarkedKinds, Marks};
 pub use outline::{Outline, outline, path_outline};
 pub use place_marks::marks;
 pub use round_step::round_step;

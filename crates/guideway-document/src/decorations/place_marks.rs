@@ -1,5 +1,6 @@
 //! Places the marks of a view: collects what is visible, thins it out, and positions it.
 
+use guideway_layout::{Layout, Value};
 use guideway_scene::{LineRule, PathState, Table, View};
 use guideway_spline::{Bounds, Point};
 
@@ -8,7 +9,7 @@ use super::declutter::{Declutter, is_crowded};
 use super::draw_marks::arrow_box;
 use super::labels::{self, Label, LabelSize, Name, Obstacles, Side};
 use super::line_mask::LineMask;
-use super::marks::{Arrow, MAX_MARKED, MarkOptions, Marks};
+use super::marks::{Arrow, MAX_MARKED, MarkOptions, MarkedKinds, Marks};
 use crate::document::Document;
 use crate::reverse_pairs::ReversePairs;
 
@@ -38,7 +39,8 @@ const BESIDE_LEVEL: &[Side] = &[Side::Above, Side::Below, Side::Right];
 /// Places the marks of all shown paths, nodes and stations in a view.
 pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
     let min_distance_px = SYMBOL_POINTS * options.px_per_point;
-    let visible = Visible::new(document, view, min_distance_px);
+    let mut visible = Visible::new(document, view, min_distance_px);
+    visible.keep(options.of);
     let mut marks = Marks {
         left_out: visible.left_out,
         ..Marks::default()
@@ -61,6 +63,12 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         marks.arrows.retain(is_visible);
     }
     marks
+}
+
+/// Returns `true` if a path is a wall or a door, along which no vehicle drives.
+fn is_structure(layout: &Layout, path: u32) -> bool {
+    let element = layout.paths.attributes.value(path as usize, "element");
+    matches!(element, Some(Value::Text("wall" | "door")))
 }
 
 /// The paths, nodes and stations of a view that get marks.
@@ -124,6 +132,19 @@ impl<'d> Visible<'d> {
         }
     }
 
+    /// Keeps the elements of some kinds.
+    fn keep(&mut self, of: MarkedKinds) {
+        if !of.paths {
+            self.paths.clear();
+        }
+        if !of.nodes {
+            self.nodes.clear();
+        }
+        if !of.stations {
+            self.stations.clear();
+        }
+    }
+
     /// Arrows along the paths, thinned out. The first path of a reverse pair has the arrows of
     /// both.
     fn arrows(&self, rule: LineRule, px_per_point: f64, min_distance_px: f64) -> Vec<Arrow> {
@@ -137,7 +158,9 @@ impl<'d> Visible<'d> {
             arrows::along(path, is_pair, radius_px, self.view, px_per_point)
         };
         let mut declutter = Declutter::new(min_distance_px);
-        let arrows = self.paths.iter().filter(is_first).flat_map(along);
+        let is_driven = |path: &&u32| !is_structure(layout, **path);
+        let driven = self.paths.iter().filter(is_first).filter(is_driven);
+        let arrows = driven.flat_map(along);
         let arrows = arrows.filter(|arrow| declutter.place(arrow.at_px));
         arrows.take(2 * MAX_MARKED).collect()
     }

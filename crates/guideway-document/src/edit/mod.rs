@@ -11,6 +11,7 @@
 //! | `shapes` | paths, nodes, radii | paths that are split, joined, welded, aligned, rounded |
 //! | `perform` | [`Change`](crate::Change)s | the changed document and an undoable step |
 
+mod cells;
 mod clip;
 mod copies;
 mod copy;
@@ -34,6 +35,7 @@ mod shapes;
 mod transform;
 mod vehicle_types;
 
+pub use cells::NewCells;
 pub use clip::Clip;
 pub use create::NewEdge;
 pub(crate) use curves::runs_of;

@@ -39,6 +39,22 @@ impl Document {
         rows: &PathSet,
         value: Option<Value<'_>>,
     ) -> Result<(), OperationError> {
+        let step = if value.is_some() {
+            "set property"
+        } else {
+            "remove property"
+        };
+        let changes = self.property_changes(property, rows, value)?;
+        Ok(self.perform(step, changes)?)
+    }
+
+    /// The changes that set a property.
+    pub(super) fn property_changes(
+        &self,
+        property: PropertyRef<'_>,
+        rows: &PathSet,
+        value: Option<Value<'_>>,
+    ) -> Result<Vec<Change>, OperationError> {
         let PropertyRef {
             of,
             name,
@@ -46,7 +62,7 @@ impl Document {
         } = property;
         self.check_rows_exist(of, rows)?;
         if rows.is_empty() {
-            return Ok(());
+            return Ok(Vec::new());
         }
         let layout = self.layout();
         let entries = of.entries(layout);
@@ -106,12 +122,7 @@ impl Document {
                 }
             }
         }
-        let step = if value.is_some() {
-            "set property"
-        } else {
-            "remove property"
-        };
-        Ok(self.perform(step, changes)?)
+        Ok(changes)
     }
 
     /// Checks that paths have an entry for a vehicle type, and gives nodes without one an entry.

@@ -20,6 +20,23 @@ impl Document {
     /// # Errors
     /// As [`Self::rename`].
     pub fn rename_all(&mut self, of: Table, ids: &[(u32, &str)]) -> Result<(), OperationError> {
+        let ids = self.new_ids(of, ids)?;
+        if ids.is_empty() {
+            return Ok(());
+        }
+        let edit = TableEdit::SetIds {
+            of,
+            ids: ids.into(),
+        };
+        Ok(self.perform("rename", vec![edit.into()])?)
+    }
+
+    /// The identifiers that differ from the present ones.
+    pub(super) fn new_ids(
+        &self,
+        of: Table,
+        ids: &[(u32, &str)],
+    ) -> Result<Vec<(u32, Box<str>)>, OperationError> {
         let rows: PathSet = ids.iter().map(|(row, _)| *row).collect();
         self.check_rows_exist(of, &rows)?;
         let layout = self.layout();
@@ -32,14 +49,6 @@ impl Document {
         }
         let is_new = |(row, id): &&(u32, &str)| of.id(layout, *row) != *id;
         let ids = ids.iter().filter(is_new);
-        let ids: Vec<(u32, Box<str>)> = ids.map(|&(row, id)| (row, id.into())).collect();
-        if ids.is_empty() {
-            return Ok(());
-        }
-        let edit = TableEdit::SetIds {
-            of,
-            ids: ids.into(),
-        };
-        Ok(self.perform("rename", vec![edit.into()])?)
+        Ok(ids.map(|&(row, id)| (row, id.into())).collect())
     }
 }

@@ -1,8 +1,9 @@
-//! Condition tree of a query, and its evaluation for a path.
+//! Condition tree of a query, and its evaluation for an element.
 
 use std::cmp::Ordering;
 
 use guideway_layout::{Layout, Value};
+use guideway_scene::Table;
 
 use super::column::Column;
 
@@ -37,29 +38,29 @@ pub(super) enum Operator {
 }
 
 impl Condition {
-    /// Returns `true` if a path fulfills the condition.
-    pub(super) fn holds(&self, layout: &Layout, path: u32) -> bool {
+    /// Returns `true` if an element fulfills the condition.
+    pub(super) fn holds(&self, layout: &Layout, of: Table, row: u32) -> bool {
         match self {
-            Self::All(parts) => parts.iter().all(|part| part.holds(layout, path)),
-            Self::Any(parts) => parts.iter().any(|part| part.holds(layout, path)),
-            Self::Not(part) => !part.holds(layout, path),
-            Self::Compare(comparison) => comparison.holds(layout, path),
+            Self::All(parts) => parts.iter().all(|part| part.holds(layout, of, row)),
+            Self::Any(parts) => parts.iter().any(|part| part.holds(layout, of, row)),
+            Self::Not(part) => !part.holds(layout, of, row),
+            Self::Compare(comparison) => comparison.holds(layout, of, row),
         }
     }
 }
 
 impl Comparison {
-    fn holds(&self, layout: &Layout, path: u32) -> bool {
-        if let Column::VehicleType = self.column {
-            return self.holds_for_types(layout.paths.vehicle_types().of(path as usize));
+    fn holds(&self, layout: &Layout, of: Table, row: u32) -> bool {
+        if let (Column::VehicleType, Some(entries)) = (&self.column, of.entries(layout)) {
+            return self.holds_for_types(entries.of(row as usize));
         }
         let result = self
             .column
-            .with_value(layout, path, |value| self.holds_for(value));
+            .with_value(layout, of, row, |value| self.holds_for(value));
         result.unwrap_or(self.operator == Operator::NotEqual)
     }
 
-    /// A path has any number of vehicle types; one that fulfills the comparison is enough.
+    /// An element has any number of vehicle types; one that fulfills the comparison is enough.
     fn holds_for_types<'a>(&self, mut types: impl Iterator<Item = &'a str>) -> bool {
         if self.operator == Operator::NotEqual {
             return types.all(|name| name != self.text);

@@ -1,6 +1,7 @@
 //! Parses a query text: tokens, then a recursive descent into a condition tree.
 
 use guideway_layout::{Layout, near_names};
+use guideway_scene::Table;
 
 use super::column::Column;
 use super::condition::{Comparison, Condition, Operator};
@@ -21,12 +22,13 @@ enum Token {
 }
 
 /// The condition tree of a query.
-pub(super) fn parse(text: &str, layout: &Layout) -> Result<Condition, QueryError> {
+pub(super) fn parse(text: &str, layout: &Layout, of: Table) -> Result<Condition, QueryError> {
     let tokens = tokens(text)?;
     let mut parser = Parser {
         end: text.chars().count() + 1,
         tokens: &tokens,
         layout,
+        of,
     };
     let condition = parser.condition(0)?;
     match parser.tokens.first() {
@@ -92,6 +94,7 @@ struct Parser<'a> {
     /// Position after the last character.
     end: usize,
     layout: &'a Layout,
+    of: Table,
 }
 
 impl Parser<'_> {
@@ -133,8 +136,8 @@ impl Parser<'_> {
         let Some((_, Token::Word(name) | Token::Quoted(name))) = self.tokens.first() else {
             return Err(self.fail(expected_column));
         };
-        let Some(column) = Column::named(name, self.layout) else {
-            let known = Column::names(self.layout);
+        let Some(column) = Column::named(name, self.layout, self.of) else {
+            let known = Column::names(self.layout, self.of);
             let near = near_names(name, known.iter().map(AsRef::as_ref));
             let near = match near[..] {
                 [nearest, ..] => format!("did you mean `{nearest}`? "),

@@ -3,6 +3,7 @@
 mod copy;
 mod find;
 mod findings;
+mod fixes;
 mod growth;
 mod history;
 mod marks;

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use guideway_document::decorations::{LabelSize, MAX_MARKED, MarkOptions, Outline, marks, outline};
+use guideway_document::decorations::{
+    LabelSize, MAX_MARKED, MarkOptions, MarkedKinds, Outline, marks, outline,
+};
 use guideway_document::{Document, PathSet, ReversePairs, SelectMode};
-use guideway_layout::{Layout, Level, NewPath};
+use guideway_layout::{Layout, Level, NewPath, Value};
 use guideway_scene::{LineRule, SceneOptions, View};
 use guideway_spline::{Point, Runs};
 
@@ -22,6 +24,11 @@ const ALL: MarkOptions = MarkOptions {
         char_px: 7.0,
         line_px: 14.0,
     }),
+    of: MarkedKinds {
+        paths: true,
+        nodes: true,
+        stations: true,
+    },
 };
 
 fn marks_of(layout: Layout, view: &View) -> guideway_document::decorations::Marks {
@@ -219,4 +226,45 @@ fn an_outline_of_too_many_paths_is_grid_cells() {
         "{}",
         cells.len()
     );
+}
+
+#[test]
+fn hidden_kinds_have_neither_symbols_nor_names() {
+    let view = view(p(5.0, 1.0), 40.0);
+    let document = document_of(lanes(3));
+    let of = |of: MarkedKinds| marks(&document, &view, &MarkOptions { of, ..ALL });
+    let all = of(MarkedKinds::default());
+    let names = |marks: &guideway_document::decorations::Marks, prefix: &str| {
+        marks
+            .labels
+            .iter()
+            .filter(|label| label.text.starts_with(prefix))
+            .count()
+    };
+    assert!(!all.nodes.is_empty() && !all.arrows.is_empty());
+    let no_nodes = of(MarkedKinds {
+        nodes: false,
+        ..MarkedKinds::default()
+    });
+    assert!(no_nodes.nodes.is_empty() && no_nodes.arrows == all.arrows);
+    assert_eq!(names(&no_nodes, "n"), 0);
+    let no_paths = of(MarkedKinds {
+        paths: false,
+        ..MarkedKinds::default()
+    });
+    assert!(no_paths.arrows.is_empty() && no_paths.nodes == all.nodes);
+}
+
+#[test]
+fn walls_and_doors_have_no_arrows() {
+    let view = view(p(5.0, 1.0), 40.0);
+    let mut layout = lanes(3);
+    let all = marks_of(layout.clone(), &view).arrows.len();
+    for (row, element) in [(0, "wall"), (1, "door"), (2, "lane")] {
+        layout
+            .paths
+            .attributes
+            .set(row, "element", Value::Text(element));
+    }
+    assert_eq!(marks_of(layout, &view).arrows.len(), all / 3);
 }

@@ -248,3 +248,38 @@ fn reverses_paths_with_the_properties_of_their_ends_and_sides() {
             .has_column("rotationAtEndNodeAllowed")
     );
 }
+
+#[test]
+fn cells_are_set_in_one_step_or_not_at_all() {
+    let mut document = document_of(square());
+    let values = [
+        ("maxSpeed", 0, Some(Value::Float(2.0))),
+        ("maxSpeed", 1, Some(Value::Float(2.0))),
+        ("maxSpeed", 2, None),
+        ("cost", 1, Some(Value::Int(7))),
+    ];
+    let cells = guideway_document::NewCells {
+        of: Table::Paths,
+        ids: &[(0, "first"), (1, "ab")],
+        values: &values,
+    };
+    document.set_cells(&cells).unwrap();
+    let paths = &document.layout().paths;
+    assert_eq!((paths.id(0), paths.id(1)), ("first", "ab"));
+    assert_eq!(paths.value(1, "maxSpeed"), Some(Value::Float(2.0)));
+    assert_eq!(paths.value(2, "maxSpeed"), None);
+    assert_eq!(paths.value(1, "cost"), Some(Value::Int(7)));
+    document.undo();
+    assert_eq!(document.layout().paths.id(0), "ab");
+    assert_eq!(
+        document.layout().paths.value(2, "maxSpeed"),
+        Some(Value::Float(1.5))
+    );
+    assert_eq!(document.undo_redo_names().0, None, "it was one step");
+    let taken = guideway_document::NewCells {
+        ids: &[(0, "cd")],
+        ..cells
+    };
+    assert!(document.set_cells(&taken).is_err());
+    assert_eq!(document.layout().paths.value(1, "cost"), None);
+}

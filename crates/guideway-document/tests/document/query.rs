@@ -1,7 +1,8 @@
 //! Query language.
 
-use guideway_document::{PathSet, Query, QueryError};
+use guideway_document::{Column, PathSet, Query, QueryError};
 use guideway_layout::Layout;
+use guideway_scene::Table;
 
 use crate::site::lanes;
 
@@ -70,4 +71,48 @@ fn rejects_deep_nesting_without_stack_overflow() {
     let wide = vec!["id = path-0"; 10_000].join(" or ");
     let query = Query::parse(&wide, &layout).unwrap();
     assert_eq!(query.rows(&layout), PathSet::from_iter([0]));
+}
+
+#[test]
+fn nodes_and_stations_are_found_by_their_columns() {
+    let layout = crate::site::square();
+    let rows = |text: &str, of: Table| {
+        let query = Query::parse_for(text, &layout, of).unwrap();
+        query.rows(&layout).iter().collect::<Vec<u32>>()
+    };
+    assert_eq!(rows("x > 5", Table::Nodes), [1, 2]);
+    assert_eq!(rows("y = 0 and id != a", Table::Nodes), [1]);
+    assert_eq!(rows("vehicle_type = tug", Table::Nodes), [0, 1, 2, 3]);
+    assert_eq!(rows("nodes ~ b", Table::Stations), [1]);
+    assert_eq!(rows("start_node = b or end_node = b", Table::Paths), [0, 1]);
+    let error = Query::parse_for("maxSpeed > 1", &layout, Table::Stations).unwrap_err();
+    assert!(error.to_string().contains("nodes"), "{error}");
+}
+
+#[test]
+fn rows_are_sorted_by_a_column() {
+    let layout = lanes(12);
+    let sorted = |column: Column, descending| {
+        let mut rows: Vec<u32> = (0..12).collect();
+        column.sort(&layout, Table::Paths, &mut rows, descending);
+        rows
+    };
+    // By number, not letter by letter.
+    assert!(sorted(Column::Id, false).is_sorted());
+    let speed = Column::Attribute("speed".into());
+    assert_eq!(sorted(speed.clone(), true)[..3], [11, 10, 9]);
+    let zone = Column::Attribute("zone".into());
+    let by_zone = sorted(zone, true);
+    assert!(by_zone[..6].iter().all(|row| row.is_multiple_of(2)));
+    assert!(
+        by_zone[6..].iter().all(|row| !row.is_multiple_of(2)),
+        "none is last"
+    );
+    assert_eq!(speed.unit(&layout, Table::Paths), None);
+    assert_eq!(Column::Length.unit(&layout, Table::Paths), Some("m"));
+    let names: Vec<String> = Column::all(&layout, Table::Paths)
+        .iter()
+        .map(|column| column.name().to_owned())
+        .collect();
+    assert_eq!(names[5..], ["start_node", "end_node", "speed", "zone"]);
 }

@@ -6,7 +6,7 @@ use super::state::App;
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
-use crate::files::{LayerEvent, OpenFiles};
+use crate::files::{Layer, LayerEvent, OpenFiles};
 use crate::tools::ToolContext;
 
 impl App {
@@ -33,16 +33,25 @@ impl App {
     }
 }
 
-/// The input of the tools; `None` while the canvas has no size.
+/// The input of the tools in the active file; `None` while the canvas has no size.
 pub(super) fn tool_context<'a>(
     files: &'a OpenFiles,
+    canvas: &Canvas,
+    settings: &DisplaySettings,
+) -> Option<ToolContext<'a>> {
+    tool_context_of(files.active(), canvas, settings)
+}
+
+/// The input of the tools in one file, or without one; `None` while the canvas has no size.
+pub(super) fn tool_context_of<'a>(
+    layer: Option<&'a Layer>,
     canvas: &Canvas,
     settings: &DisplaySettings,
 ) -> Option<ToolContext<'a>> {
     let view = canvas.camera.view()?;
     Some(ToolContext {
         view,
-        document: files.document(),
+        document: layer.and_then(Layer::document),
         line_rule: settings.line_rule(canvas.px_per_point()),
         picks_symbols: settings.has_symbols,
         grid_step_m: settings.grid_step_m(&view, canvas.px_per_point()),

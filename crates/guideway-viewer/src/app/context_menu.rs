@@ -22,7 +22,7 @@ impl App {
             self.context_place = self.open_context(at_px, ui.ctx());
         }
         let groups = self.context_place.groups();
-        let state = self.command_state();
+        let state = self.command_state(ui.ctx().content_rect().width());
         let menu = Popup::context_menu(&response);
         menu.show(|ui| command_list(ui, groups, &state))?.inner
     }
@@ -54,12 +54,14 @@ impl App {
         place
     }
 
-    /// The state of the commands in menus and the toolbar.
-    pub(super) fn command_state(&self) -> CommandState<'_> {
+    /// The state of the commands in menus and the toolbar of a window of this width in points.
+    pub(super) fn command_state(&self, window_width: f32) -> CommandState<'_> {
         CommandState {
             files: &self.files,
             settings: &self.settings,
             has_swept_areas: self.swept_areas.is_visible,
+            has_side_panel: self.side.is_open(window_width),
+            bottom: self.bottom.view,
             tool: self.tools.tool(),
         }
     }

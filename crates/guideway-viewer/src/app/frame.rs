@@ -4,9 +4,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-use eframe::egui::{
-    CentralPanel, Context, Frame, Panel, ScrollArea, TextWrapMode, Ui, ViewportCommand,
-};
+use eframe::egui::{CentralPanel, Context, CursorIcon, Frame, Panel, Ui, ViewportCommand};
 use guideway_document::Document;
 
 use super::state::App;
@@ -16,6 +14,16 @@ use crate::files::{Layer, LayerContext, LayerEvent};
 use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
+
+/// Least width of the side panel, in points.
+const MIN_SIDE_PANEL_WIDTH: f32 = 180.0;
+/// Height of the bottom panel until the user drags its edge, in points.
+const BOTTOM_HEIGHT: f32 = 240.0;
+const MIN_BOTTOM_HEIGHT: f32 = 90.0;
+/// Height that the bottom panel leaves to the canvas, in points.
+const MIN_CANVAS_HEIGHT: f32 = 120.0;
+/// Width that the side panel leaves to the canvas, in points.
+const MIN_CANVAS_WIDTH: f32 = 160.0;
 
 impl App {
     /// Shows one frame.
@@ -27,9 +35,10 @@ impl App {
         self.follow_theme(&ctx);
         self.remember(&ctx);
         self.update_title(&ctx);
+        let width = ui.available_width();
         Panel::top("menus").show(ui, |ui| {
             let bar = MenuBar {
-                commands: self.command_state(),
+                commands: self.command_state(width),
                 writer: &self.writer,
             };
             let actions = bar.show(ui);
@@ -53,18 +62,27 @@ impl App {
                 files: &self.files,
                 tools: &self.tools,
                 settings: &self.settings,
+                other_hit: self.other_hit.as_ref(),
+                marked_findings: self.findings.marked,
             };
             bar.show(ui);
         });
-        // Its width is fixed: the canvas must not resize while the content of the panel follows the
-        // pointer.
-        let side = Panel::right("side").exact_size(self.panel_width);
-        side.show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                ui.style_mut().wrap_mode = Some(TextWrapMode::Wrap);
-                self.show_side_panel(ui, &ctx);
+        if self.side.is_open(width) {
+            let most = (width - MIN_CANVAS_WIDTH).max(MIN_SIDE_PANEL_WIDTH);
+            let side = Panel::right("side").default_size(self.panel_width);
+            let side = side.size_range(MIN_SIDE_PANEL_WIDTH..=most);
+            let shown = side.show(ui, |ui| self.show_side_panel(ui, &ctx));
+            self.panel_width = shown.response.rect.width();
+        }
+        if self.bottom.view.is_some() {
+            let most = (ui.available_height() - MIN_CANVAS_HEIGHT).max(MIN_BOTTOM_HEIGHT);
+            let bottom = Panel::bottom("tables").resizable(true);
+            let bottom = bottom.default_size(BOTTOM_HEIGHT);
+            bottom.size_range(MIN_BOTTOM_HEIGHT..=most).show(ui, |ui| {
+                let actions = self.bottom.show(ui, &self.files, &self.context.repaint);
+                self.apply_all(actions, &ctx);
             });
-        });
+        }
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
             self.show_canvas(ui);
             let canvas = self.canvas.screen().rect;
@@ -108,6 +126,7 @@ impl App {
 
     fn show_side_panel(&mut self, ui: &mut Ui, ctx: &Context) {
         let mut panel = SidePanel {
+            tabs: &mut self.side,
             files: &mut self.files,
             floor_plan: &mut self.floor_plan,
             exact_edit: &mut self.exact_edit,
@@ -128,6 +147,8 @@ impl App {
         }
         if let Some(cursor) = self.canvas.cursor() {
             ui.ctx().set_cursor_icon(cursor);
+        } else if self.bottom.picks_places() && self.canvas.pointer_px().is_some() {
+            ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
         } else if self.canvas.pointer_px().is_some() {
             ui.ctx()
                 .set_cursor_icon(self.tools.cursor(self.files.document()));
@@ -138,8 +159,17 @@ impl App {
         self.request_pictures();
         let options = self.settings.mark_options(self.canvas.px_per_point());
         let (wait, repaint) = (self.edit_wait, &self.context.repaint);
-        if let Some(layer) = self.files.active_mut().filter(|layer| layer.is_visible) {
-            layer.slot.request_overlay(&view, &options, wait, repaint);
+        let active = self.files.active_index();
+        for (index, layer) in self.files.layers_mut().iter_mut().enumerate() {
+            if layer.is_visible {
+                let options = layer.look.mark_options(options, layer.document());
+                let wait = if index == active {
+                    wait
+                } else {
+                    Duration::ZERO
+                };
+                layer.slot.request_overlay(&view, &options, wait, repaint);
+            }
         }
         let screen = self.canvas.screen();
         let painter = CanvasPainter {
@@ -153,6 +183,10 @@ impl App {
             plan_editor: &self.plan_editor,
             swept_areas: &self.swept_areas,
             tools: &self.tools,
+            other_hit: self.other_hit.as_ref(),
+            marked_findings: self.findings.marked,
+            route: self.shown_route(),
+            changes: self.shown_changes(),
         };
         painter.paint(&ui.painter_at(screen.rect));
     }
@@ -190,6 +224,8 @@ impl App {
         if let Some(element) = self.find.poll(self.files.document()) {
             self.zoom_to(element);
         }
+        self.refresh_findings(ctx);
+        self.update_tools();
         self.swept_areas.poll(ctx);
         if let Some(bounds) = self.floor_plan.poll(ctx)
             && self.files.layers().is_empty()
@@ -204,6 +240,21 @@ impl App {
             for event in self.files.poll_layer(ctx, index) {
                 self.take_event(event, index);
             }
+        }
+    }
+
+    /// Checks the active file again after a change.
+    fn refresh_findings(&mut self, ctx: &Context) {
+        let (now_s, options) = (ctx.input(|input| input.time), self.findings.check_options());
+        let repaint = &self.context.repaint;
+        let wait = self.files.active_mut().and_then(|layer| {
+            let document = layer.slot.document();
+            layer
+                .tasks
+                .refresh_findings(document, options, now_s, repaint)
+        });
+        if let Some(wait) = wait {
+            ctx.request_repaint_after(wait);
         }
     }
 

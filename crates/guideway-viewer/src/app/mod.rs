@@ -6,6 +6,7 @@
 //! | frame | results of threads, input of egui | shown parts, actions | `frame` |
 //! | remember | settings and window | a file in the state folder | `remember` |
 //! | input | keys and pointer events, in order | commands, events of the tools | `input` |
+//! | pick | pointer events | the file that was clicked | `picking` |
 //! | route | action, command, pointer event | calls of the owning part | `routing` |
 //! | context menu | a right click | a selection, commands | `context_menu` |
 //! | file names | questions for file names | actions | `file_dialogs` |
@@ -25,6 +26,7 @@ mod frame;
 mod input;
 mod open_project;
 mod opening;
+mod picking;
 mod project;
 mod remember;
 mod routing;

@@ -10,6 +10,8 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
+use crate::files::Layer;
+use crate::panels::{BottomView, SideTab};
 use crate::tools::{PointerEvent, Tool, ToolEffect};
 
 /// Distance of one key press of a pan command, in pixels.
@@ -33,6 +35,7 @@ impl App {
             Action::SelectByQuery(mode) => self.select_by_query(mode),
             Action::Search => self.find.search(self.files.document(), repaint),
             Action::ZoomTo(element) => self.zoom_to(element),
+            Action::FlyTo(file, element) => self.fly_to(file, element),
             Action::Check(options) => {
                 if let Some(layer) = self.files.active_mut() {
                     layer.tasks.check(layer.slot.document(), options, repaint);
@@ -58,6 +61,7 @@ impl App {
             }
             Action::PlaceFloorPlan(placement) => self.place_floor_plan(&placement),
             Action::Activate(index) => self.files.activate(index),
+            Action::MoveLayer { from, to } => self.files.move_layer(from, to),
             Action::Close(index) => self.request_close(index),
             Action::CloseWithoutSaving(index) => {
                 self.dialogs.leave.close();
@@ -101,9 +105,16 @@ impl App {
             Command::Close => self.request_close(self.files.active_index()),
             Command::Quit => self.dialogs.leave.quit(ctx, &self.files),
             Command::NextFile => self.files.activate_next(),
-            Command::Find => self.find.wants_focus = true,
             Command::Settings => self.dialogs.settings.is_open ^= true,
             Command::About => self.dialogs.about.is_open ^= true,
+            Command::Find => {
+                self.side.open(SideTab::Find);
+                self.find.wants_focus = true;
+            }
+            Command::Table => self.bottom.toggle(BottomView::Table),
+            Command::Route => self.bottom.toggle(BottomView::Route),
+            Command::Compare => self.bottom.toggle(BottomView::Compare),
+            Command::SidePanel => self.side.toggle(ctx.content_rect().width()),
             Command::Shortcuts => self.dialogs.shortcuts.is_open ^= true,
             Command::Cancel => self.cancel(ctx),
             Command::FinishPath => self.finish_path(),
@@ -209,12 +220,17 @@ impl App {
         }
         let is_typing = ctx.text_edit_focused();
         self.properties.discard();
+        self.bottom.table.discard();
         release_keyboard(ctx);
         if self.dialogs.close() || is_typing {
             return;
         }
         if self.plan_editor.cancel(&mut self.floor_plan) {
             self.canvas.release_pointer();
+            return;
+        }
+        if self.bottom.picks_places() {
+            self.bottom.route.stop_picking();
             return;
         }
         if self.tools.has_gesture() {
@@ -252,6 +268,12 @@ impl App {
 
     /// Routes a pointer event to the tools.
     pub(super) fn point(&mut self, event: PointerEvent) {
+        if let PointerEvent::Clicked(at_px, _) = event
+            && self.bottom.picks_places()
+        {
+            return self.pick_place(at_px);
+        }
+        self.pick_in_others(&event);
         let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
             if matches!(event, PointerEvent::DragEnded(_)) {
                 self.tools.abort_drag();
@@ -291,6 +313,14 @@ impl App {
         self.edit(EditTask::view_change(move |document| {
             document.select_elements(&Elements::of(element), SelectMode::Replace);
         }));
+    }
+
+    /// Zooms to an element of a file.
+    fn fly_to(&mut self, file: usize, element: Element) {
+        let document = self.files.layers().get(file).and_then(Layer::document);
+        if let Some(bounds) = document.and_then(|d| d.bounds_of(element)) {
+            self.canvas.camera.zoom_to(bounds);
+        }
     }
 
     fn select_by_query(&mut self, mode: SelectMode) {

@@ -15,12 +15,14 @@ use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::panels::dialogs::Dialogs;
-use crate::panels::{FindingsPanel, NewEdgesPanel, PropertiesPanel, Welcome};
+use crate::panels::{
+    BottomPanel, FindingsPanel, NewEdgesPanel, PropertiesPanel, SideTabs, Welcome,
+};
 use crate::preferences::{PreferencesFile, WindowPlace};
 use crate::render_queue::MethodSelection;
 use crate::selection::{CopiedElements, ExactEdit, Find};
 use crate::services::AppServices;
-use crate::tools::Tools;
+use crate::tools::{OtherHit, Tools};
 
 /// Longest time that the first frames wait for a picture. On a software renderer every frame
 /// occupies both cores of an office laptop, which the first picture needs; until then the window
@@ -45,6 +47,10 @@ pub(crate) struct App {
     pub(crate) new_edges: NewEdgesPanel,
     /// Elements to paste.
     pub(crate) copied: Option<CopiedElements>,
+    pub(crate) side: SideTabs,
+    pub(crate) bottom: BottomPanel,
+    /// The path under the pointer in another than the active file.
+    pub(crate) other_hit: Option<OtherHit>,
     pub(crate) dialogs: Dialogs,
     pub(crate) welcome: Welcome,
     pub(super) project: OpenProject,
@@ -92,6 +98,9 @@ impl App {
             properties: PropertiesPanel::default(),
             new_edges: NewEdgesPanel::default(),
             copied: None,
+            side: SideTabs::default(),
+            bottom: BottomPanel::default(),
+            other_hit: None,
             dialogs: Dialogs::default(),
             welcome: Welcome::default(),
             project: OpenProject::default(),

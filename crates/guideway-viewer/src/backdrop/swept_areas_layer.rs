@@ -49,7 +49,7 @@ impl Default for SweptAreasLayer {
 
 impl SweptAreasLayer {
     /// The vehicle of the text.
-    fn vehicle(&self) -> Result<EnvelopeSource, SourceError> {
+    pub(crate) fn vehicle(&self) -> Result<EnvelopeSource, SourceError> {
         self.vehicle_text.trim().parse()
     }
 

@@ -13,17 +13,22 @@ use guideway_spline::Point;
 
 use super::draft::Draft;
 use super::paint_draw_list::{color32, paint_draw_list};
+use super::paint_findings::paint_findings;
 use super::paint_gesture::{
-    HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_handles, paint_outline,
-    paint_rings,
+    HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_glowing, paint_handles,
+    paint_outline, paint_rings,
 };
 use super::paint_snap::paint_snap;
+use super::paint_tools::Sheet;
 use super::paint_typed::paint_typed;
 use super::screen::Screen;
 use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanTask, SweptAreasLayer};
+use crate::compare::Changed;
 use crate::display_settings::DisplaySettings;
+use crate::editing::MarkedSeverities;
 use crate::files::{Layer, OpenFiles};
-use crate::tools::{Gesture, Tool, ToolContext, Tools};
+use crate::route::FoundRoute;
+use crate::tools::{Gesture, OtherHit, Tool, ToolContext, Tools};
 
 const MESSAGE_POINTS: f32 = 15.0;
 
@@ -39,6 +44,12 @@ pub(crate) struct CanvasPainter<'a> {
     pub(crate) plan_editor: &'a PlanEditor,
     pub(crate) swept_areas: &'a SweptAreasLayer,
     pub(crate) tools: &'a Tools,
+    pub(crate) other_hit: Option<&'a OtherHit>,
+    pub(crate) marked_findings: MarkedSeverities,
+    /// The route, and the part of it that the vehicle has driven.
+    pub(crate) route: Option<(&'a FoundRoute, f32)>,
+    /// The other document of a comparison, and the changes from it.
+    pub(crate) changes: Option<(&'a Document, &'a Changed)>,
 }
 
 impl CanvasPainter<'_> {
@@ -51,14 +62,21 @@ impl CanvasPainter<'_> {
         painter.rect_filled(self.screen.rect, 0.0, background);
         self.paint_floor_plan(painter);
         list(self.settings.grid(&self.view, px_per_point));
-        self.paint_picture(painter, self.swept_areas.shown());
-        for layer in self.files.visible() {
-            let shown = layer.picture.shown();
-            self.paint_picture(painter, shown.map(|shown| (&shown.texture, &shown.view)));
+        self.paint_picture(painter, self.swept_areas.shown(), 1.0);
+        if let Some((route, _)) = self.route {
+            self.sheet(painter).route_area(route, background);
         }
+        for layer in self.files.visible() {
+            let shown = layer.picture.shown().filter(|_| layer.look.has_paths);
+            let shown = shown.map(|shown| (&shown.texture, &shown.view));
+            self.paint_picture(painter, shown, layer.look.opacity);
+        }
+        self.paint_others(painter, &style);
         if let Some(layer) = self.files.active().filter(|layer| layer.is_visible) {
             self.paint_overlay(painter, layer, &style);
         }
+        self.paint_tools(painter);
+        self.paint_findings(painter);
         self.paint_gesture(painter);
         list(scale_bar(&self.view, &style));
         let document = self.files.document();
@@ -111,11 +129,47 @@ impl CanvasPainter<'_> {
 
     /// Paints the last picture where it belongs in the present view, until the next one is
     /// complete.
-    fn paint_picture(&self, painter: &Painter, picture: Option<(&TextureHandle, &View)>) {
+    fn paint_picture(
+        &self,
+        painter: &Painter,
+        picture: Option<(&TextureHandle, &View)>,
+        opacity: f32,
+    ) {
         if let Some((texture, of)) = picture {
             let rect = self.screen.picture_rect(of, &self.view);
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            painter.image(texture.id(), rect, whole, Color32::WHITE);
+            let tint = Color32::WHITE.gamma_multiply(opacity);
+            painter.image(texture.id(), rect, whole, tint);
+        }
+    }
+
+    /// Paints the marks of the files that are not active, and the path under the pointer in one.
+    fn paint_others(&self, painter: &Painter, style: &DecorationStyle) {
+        let active = self.files.active().map(Layer::path);
+        let others = self.files.visible().filter(|l| Some(l.path()) != active);
+        for layer in others {
+            if let Some(overlay) = layer.slot.overlay().last() {
+                let place = |pixel| self.placed(&overlay.view, pixel);
+                let marks = overlay.marks.draw(style, place);
+                paint_draw_list(painter, self.screen, &marks);
+            }
+        }
+        let hit = self.other_hit.and_then(|other| {
+            let document = self.files.layers().get(other.file)?.document()?;
+            Some((document, other.hit.path))
+        });
+        if let Some((document, path)) = hit {
+            let lines = outline(document, &PathSet::from_iter([path]), &self.view);
+            let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
+            paint_glowing(painter, &lines, stroke, |pixel| self.screen.point(pixel));
+        }
+    }
+
+    /// The pixel of the present view at the place of a pixel of another view.
+    fn placed(&self, of: &View, pixel: Point<f64>) -> Point<f64> {
+        match *of == self.view {
+            true => pixel,
+            false => self.view.pixel_from_world(of.world_from_pixel(pixel)),
         }
     }
 
@@ -125,10 +179,7 @@ impl CanvasPainter<'_> {
             return;
         };
         let (view, screen) = (&self.view, self.screen);
-        let place = |pixel: Point<f64>| match overlay.view == *view {
-            true => pixel,
-            false => view.pixel_from_world(overlay.view.world_from_pixel(pixel)),
-        };
+        let place = |pixel: Point<f64>| self.placed(&overlay.view, pixel);
         let to_screen = |pixel| screen.point(place(pixel));
         let scale = f64::from(screen.px_per_point);
         // Half the width of the lines, so that the outline shows on wide lines too.
@@ -138,7 +189,8 @@ impl CanvasPainter<'_> {
             .radius_px(None, view.px_per_m());
         let stroke = |color| Stroke::new(MIN_OUTLINE_WIDTH.max((radius_px / scale) as f32), color);
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
-        paint_outline(painter, &overlay.selection, selected, to_screen);
+        paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
+        paint_glowing(painter, &overlay.selection, selected, to_screen);
         if let Gesture::Move { by_m, .. } = self.tools.gesture() {
             let by = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
             paint_outline(painter, &overlay.selection, hovered, |pixel| {
@@ -148,14 +200,46 @@ impl CanvasPainter<'_> {
         let document = layer.document();
         if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {
             let lines = outline(document, &PathSet::from_iter([hit.path]), view);
-            paint_outline(painter, &lines, hovered, |pixel| screen.point(pixel));
+            paint_glowing(painter, &lines, hovered, |pixel| screen.point(pixel));
         }
-        paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
         if let Some(document) = document {
             paint_rings(painter, screen, &selected_symbols(document, view));
         }
         if let (Tool::Points, Some(document)) = (self.tools.tool(), document) {
             paint_handles(painter, screen, &handles(document, view));
+        }
+    }
+
+    fn sheet<'p>(&'p self, painter: &'p Painter) -> Sheet<'p> {
+        Sheet {
+            painter,
+            screen: self.screen,
+            view: &self.view,
+        }
+    }
+
+    /// Paints the changes of a comparison, and the route.
+    fn paint_tools(&self, painter: &Painter) {
+        let Some(document) = self.files.document() else {
+            return;
+        };
+        let sheet = self.sheet(painter);
+        if let Some((other, changed)) = self.changes {
+            sheet.changes(other, document, changed);
+        }
+        if let Some((route, driven)) = self.route {
+            let vehicle = self.swept_areas.vehicle().ok();
+            sheet.route(document, route, driven, vehicle);
+        }
+    }
+
+    fn paint_findings(&self, painter: &Painter) {
+        let layer = self.files.active().filter(|layer| layer.is_visible);
+        if let Some((layer, findings)) = layer.and_then(|l| Some((l, l.tasks.findings()?))) {
+            let state = layer.document().map(Document::state);
+            let is_old = state.is_some_and(|state| state != findings.state);
+            let marked = self.marked_findings;
+            paint_findings(painter, self.screen, &self.view, findings, marked, is_old);
         }
     }
 

@@ -14,8 +14,10 @@ mod canvas_input;
 mod canvas_painter;
 mod draft;
 mod paint_draw_list;
+mod paint_findings;
 mod paint_gesture;
 mod paint_snap;
+mod paint_tools;
 mod paint_typed;
 mod pointer_tracker;
 mod screen;
@@ -23,4 +25,6 @@ mod shape_text;
 
 pub(crate) use canvas_input::Canvas;
 pub(crate) use canvas_painter::CanvasPainter;
+pub(crate) use paint_findings::severity_color;
+pub(crate) use paint_tools::change_color;
 pub(crate) use shape_text::shape_text;

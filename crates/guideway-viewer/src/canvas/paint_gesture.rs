@@ -10,6 +10,9 @@ pub(super) const SELECTION_COLOR: Color32 = Color32::from_rgb(30, 120, 255);
 pub(super) const HOVER_COLOR: Color32 = Color32::from_rgb(255, 140, 0);
 /// Least width of an outline, in points.
 pub(super) const MIN_OUTLINE_WIDTH: f32 = 2.5;
+/// Width of the glow of an outline on both sides together, in points.
+const GLOW_WIDTH: f32 = 8.0;
+const GLOW_OPACITY: f32 = 0.25;
 /// Radius of the ring around a selected node or station, in points.
 const RING_RADIUS: f32 = 9.0;
 /// Side of the square of a handle, in points.
@@ -40,6 +43,19 @@ pub(super) fn paint_outline(
             painter.add(mesh);
         }
     }
+}
+
+/// Paints the outline of paths with a glow, which stands out over lines and marks of any color.
+pub(super) fn paint_glowing(
+    painter: &Painter,
+    outline: &Outline,
+    stroke: Stroke,
+    to_screen: impl Fn(Point<f64>) -> Pos2,
+) {
+    let glow = stroke.color.gamma_multiply(GLOW_OPACITY);
+    let wide = Stroke::new(stroke.width + GLOW_WIDTH, glow);
+    paint_outline(painter, outline, wide, &to_screen);
+    paint_outline(painter, outline, stroke, to_screen);
 }
 
 /// Paints rings around selected nodes and stations.

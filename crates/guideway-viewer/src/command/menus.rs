@@ -48,6 +48,7 @@ pub(crate) const MENUS: [Menu; 7] = [
             &[Back, Forward],
             &[PanLeft, PanRight, PanUp, PanDown],
             &[NextFile],
+            &[SidePanel, Table],
         ],
     },
     Menu {
@@ -63,6 +64,7 @@ pub(crate) const MENUS: [Menu; 7] = [
         groups: &[
             &[ToolSelect, ToolPoints, ToolMeasure],
             &[ToolLine, ToolArc, ToolCurve, ToolNode, ToolStation],
+            &[Route, Compare],
             &[FinishPath, Cancel],
         ],
     },
@@ -95,10 +97,9 @@ impl ContextPlace {
                 &[RotateLeft, FlipHorizontal, FlipVertical, Refine],
                 &[Hide, Isolate, ShowAll],
             ],
-            Self::Node | Self::Station => &[
-                &[ZoomToSelection],
-                &[Cut, Copy, Duplicate, Delete, Rename],
-            ],
+            Self::Node | Self::Station => {
+                &[&[ZoomToSelection], &[Cut, Copy, Duplicate, Delete, Rename]]
+            }
             Self::Draft => &[&[FinishPath, Undo], &[Cancel]],
             Self::Empty => &[
                 &[ToolSelect, ToolPoints, ToolLine, ToolMeasure],

@@ -1,6 +1,7 @@
 //! Background tasks of one document: recoloring, selection by query, check.
 
 use std::path::Path;
+use std::time::Duration;
 
 use guideway_document::{Document, PathSet, Query, QueryError, SelectMode};
 use guideway_layout::{CheckOptions, shown_path};
@@ -12,6 +13,12 @@ use super::findings::Findings;
 use super::notice::Notice;
 use crate::background::{BackgroundTask, RepaintHandle};
 
+/// Time without a change after which the document is checked: longer than the pauses of a drag, in
+/// seconds.
+const CHECK_DELAY_S: f64 = 0.5;
+/// A check that takes longer runs only on request: it occupies the processor that edits need.
+const LONG_CHECK: Duration = Duration::from_secs(1);
+
 /// The background tasks of one document, its scene options and its findings.
 pub(crate) struct BackgroundTasks {
     /// The options that the scene has, or gets when the task in progress is complete.
@@ -20,6 +27,8 @@ pub(crate) struct BackgroundTasks {
     selecting: Option<(BackgroundTask<PathSet>, SelectMode)>,
     checking: Option<BackgroundTask<Findings>>,
     findings: Option<Findings>,
+    /// A state without findings, and the time of its detection in seconds.
+    unchecked: Option<(u64, CheckOptions, f64)>,
 }
 
 /// The result of a background task that concerns the open file.
@@ -40,6 +49,7 @@ impl BackgroundTasks {
             selecting: None,
             checking: None,
             findings: None,
+            unchecked: None,
         }
     }
 
@@ -55,6 +65,12 @@ impl BackgroundTasks {
 
     pub(crate) fn findings(&self) -> Option<&Findings> {
         self.findings.as_ref()
+    }
+
+    /// Takes the findings, to change them.
+    #[cfg(test)]
+    pub(crate) fn take_findings(&mut self) -> Option<Findings> {
+        self.findings.take()
     }
 
     pub(crate) fn set_findings(&mut self, findings: Findings) {
@@ -124,6 +140,36 @@ impl BackgroundTasks {
             let check = move || Findings::of(&snapshot, &options);
             self.checking = Some(BackgroundTask::start(repaint, check));
         }
+    }
+
+    /// Checks the document a while after its last change, unless the last check took long. Returns
+    /// the time until then.
+    pub(crate) fn refresh_findings(
+        &mut self,
+        document: Option<&Document>,
+        options: CheckOptions,
+        now_s: f64,
+        repaint: &RepaintHandle,
+    ) -> Option<Duration> {
+        let (document, findings) = (document?, self.findings.as_ref()?);
+        let state = document.state();
+        let is_new = findings.state == state && findings.options == options;
+        if is_new || self.checking.is_some() || findings.elapsed > LONG_CHECK {
+            self.unchecked = None;
+            return None;
+        }
+        let since_s = match &self.unchecked {
+            Some((seen, of, since_s)) if *seen == state && *of == options => *since_s,
+            _ => now_s,
+        };
+        let wait_s = since_s + CHECK_DELAY_S - now_s;
+        if wait_s <= 0.0 {
+            self.unchecked = None;
+            self.check(Some(document), options, repaint);
+            return None;
+        }
+        self.unchecked = Some((state, options, since_s));
+        Some(Duration::from_secs_f64(wait_s))
     }
 
     /// Takes finished tasks. Recoloring and selection wait until no other thread reads the
@@ -201,7 +247,6 @@ impl BackgroundTasks {
 mod tests {
     use std::sync::Arc;
     use std::thread;
-    use std::time::Duration;
 
     use super::*;
     use crate::tests::services::lanes;

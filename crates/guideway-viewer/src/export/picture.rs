@@ -27,7 +27,8 @@ impl PictureContent<'_> {
     /// The request for this picture; `None` if no document is visible.
     pub(crate) fn request(&self) -> Option<PictureRequest> {
         let scene = |layer: &Layer| Some(Arc::new(layer.document()?.scene().clone()));
-        let mut scenes: Vec<_> = self.files.visible().filter_map(scene).collect();
+        let with_paths = self.files.visible().filter(|layer| layer.look.has_paths);
+        let mut scenes: Vec<_> = with_paths.filter_map(scene).collect();
         let top = scenes.pop()?;
         let settings = self.settings;
         let active = self.files.active().filter(|layer| layer.is_visible);
@@ -49,14 +50,17 @@ impl PictureContent<'_> {
         })
     }
 
-    /// Arrows, symbols, labels and scale bar.
+    /// Arrows, symbols and labels of all visible files, and the scale bar.
     fn marks(&self) -> DrawList {
         let mut list = DrawList::default();
         let style = self.settings.decoration_style(self.px_per_point);
-        let active = self.files.active().filter(|layer| layer.is_visible);
-        if let Some(document) = active.and_then(Layer::document) {
-            let options = self.settings.mark_options(self.px_per_point);
-            list = marks(document, &self.view, &options).draw(&style, |at_px| at_px);
+        let options = self.settings.mark_options(self.px_per_point);
+        for layer in self.files.visible() {
+            if let Some(document) = layer.document() {
+                let options = layer.look.mark_options(options, Some(document));
+                let marks = marks(document, &self.view, &options);
+                list.append(marks.draw(&style, |at_px| at_px));
+            }
         }
         list.append(scale_bar(&self.view, &style));
         list

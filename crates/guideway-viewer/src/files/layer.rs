@@ -11,6 +11,7 @@ use guideway_scene::SceneOptions;
 
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
+use super::layer_look::LayerLook;
 use super::loader::{Loaded, Loader, MakeLayout, Source};
 use super::save_state::{SaveState, changed_on_disk};
 use crate::background::RepaintHandle;
@@ -24,6 +25,9 @@ use crate::services::{Job, LoadStage};
 pub(crate) struct Layer {
     pub(super) path: PathBuf,
     pub(crate) is_visible: bool,
+    pub(crate) look: LayerLook,
+    /// The only level that is shown; `None` shows all.
+    pub(crate) level: Option<u32>,
     pub(crate) slot: DocumentSlot,
     pub(crate) picture: LayerPicture,
     pub(crate) tasks: BackgroundTasks,
@@ -63,6 +67,8 @@ impl Layer {
             picture: LayerPicture::start(&context.services, method, &context.repaint),
             path,
             is_visible: true,
+            look: LayerLook::default(),
+            level: None,
             slot: DocumentSlot::default(),
             tasks: BackgroundTasks::new(options.clone()),
             save: SaveState::default(),
@@ -374,6 +380,7 @@ impl Layer {
         let queue = self.picture.queue();
         document.on_edit(move |edit| queue.edit(edit.clone()));
         let is_reload = self.slot.replace(document);
+        self.level = None;
         self.tasks.reset_findings();
         if is_reload || std::mem::take(&mut self.owes_scene) {
             self.send_scene();

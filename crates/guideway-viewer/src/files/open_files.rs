@@ -15,7 +15,7 @@ use super::recent_files::RecentFiles;
 use super::save_state::changed_on_disk;
 use super::watcher::Watcher;
 
-/// The open files from the bottom; the active one is drawn on top and edited.
+/// The open files from the top; the active one is edited, and drawn above all.
 pub(crate) struct OpenFiles {
     layers: Vec<Layer>,
     active: usize,
@@ -73,9 +73,25 @@ impl OpenFiles {
         self.active()?.document()
     }
 
+    /// Moves a file in the list; the active one stays active.
+    pub(crate) fn move_layer(&mut self, from: usize, to: usize) {
+        let count = self.layers.len();
+        if from >= count || to >= count {
+            return;
+        }
+        let layer = self.layers.remove(from);
+        self.layers.insert(to, layer);
+        self.active = match self.active {
+            active if active == from => to,
+            active if from < active && active <= to => active - 1,
+            active if to <= active && active < from => active + 1,
+            active => active,
+        };
+    }
+
     /// The visible files, from the bottom; the active one is on top.
     pub(crate) fn visible(&self) -> impl Iterator<Item = &Layer> {
-        let others = self.layers.iter().enumerate();
+        let others = self.layers.iter().enumerate().rev();
         let others = others.filter(|(index, _)| *index != self.active);
         let all = others.map(|(_, layer)| layer).chain(self.active());
         all.filter(|layer| layer.is_visible)
@@ -184,10 +200,9 @@ impl OpenFiles {
     /// Recolors one file if its scene has other options.
     pub(crate) fn recolor_one(&mut self, index: usize, options: &SceneOptions) {
         let layer = &mut self.layers[index];
+        let options = layer.look.scene_options(options);
         let repaint = &self.context.repaint;
-        layer
-            .tasks
-            .recolor(layer.slot.document(), options.clone(), repaint);
+        layer.tasks.recolor(layer.slot.document(), options, repaint);
     }
 
     /// Replaces the render method of all files.
@@ -286,6 +301,30 @@ mod tests {
         assert_eq!(files.active_index(), 1);
         files.open("a.arrow".into(), "cpu", SceneOptions::default());
         assert_eq!((files.layers().len(), files.active_index()), (2, 0));
+    }
+
+    #[test]
+    fn moved_file_stays_active() {
+        let mut files = open_files();
+        files.open("c.arrow".into(), "cpu", SceneOptions::default());
+        let names =
+            |files: &OpenFiles| -> Vec<String> { files.layers().iter().map(Layer::name).collect() };
+        for (from, to, order) in [
+            (2, 0, ["c.arrow", "a.arrow", "b.arrow"]),
+            (2, 1, ["c.arrow", "b.arrow", "a.arrow"]),
+            (1, 2, ["c.arrow", "a.arrow", "b.arrow"]),
+            (1, 9, ["c.arrow", "a.arrow", "b.arrow"]),
+        ] {
+            files.move_layer(from, to);
+            assert_eq!(names(&files), order);
+            assert!(files.active().is_some_and(|l| l.name() == "c.arrow"));
+        }
+        let drawn: Vec<String> = files.visible().map(Layer::name).collect();
+        assert_eq!(
+            drawn,
+            ["b.arrow", "a.arrow", "c.arrow"],
+            "the first is on top"
+        );
     }
 
     #[test]

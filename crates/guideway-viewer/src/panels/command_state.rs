@@ -1,5 +1,6 @@
 //! The state of commands in menus and the toolbar: text, tick, and whether they can run.
 
+use super::bottom_panel::BottomView;
 use crate::command::Command;
 use crate::display_settings::DisplaySettings;
 use crate::files::OpenFiles;
@@ -11,6 +12,10 @@ pub(crate) struct CommandState<'a> {
     pub(crate) settings: &'a DisplaySettings,
     /// True if swept areas are shown.
     pub(crate) has_swept_areas: bool,
+    /// True if the side panel is shown.
+    pub(crate) has_side_panel: bool,
+    /// The view of the bottom panel that is open.
+    pub(crate) bottom: Option<BottomView>,
     pub(crate) tool: Tool,
 }
 
@@ -60,6 +65,10 @@ impl CommandState<'_> {
             Command::ThesisRule => self.settings.is_thesis_rule,
             Command::Dark => self.settings.is_dark,
             Command::SweptAreas => self.has_swept_areas,
+            Command::SidePanel => self.has_side_panel,
+            Command::Table => self.bottom == Some(BottomView::Table),
+            Command::Route => self.bottom == Some(BottomView::Route),
+            Command::Compare => self.bottom == Some(BottomView::Compare),
             Command::ToolSelect => self.tool == Tool::Select,
             Command::ToolPoints => self.tool == Tool::Points,
             Command::ToolLine => self.tool == Tool::Line,

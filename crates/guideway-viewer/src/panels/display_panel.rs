@@ -1,4 +1,4 @@
-//! The Display section: colors, line widths, decorations, swept areas.
+//! The head of the View tab: colors, line widths, decorations, swept areas.
 
 use eframe::egui::{ComboBox, Slider, TextEdit, Ui};
 use guideway_layout::{Attribute, Layout};

@@ -1,4 +1,4 @@
-//! The Find section: search by name, and selection by query.
+//! The Find tab: search by name, and selection by query.
 
 use eframe::egui::{Key, TextEdit, Ui};
 use guideway_document::{Element, SelectMode};
@@ -34,10 +34,16 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
                 actions.push(Action::ZoomTo(element));
             }
         }
+        for more in find.more() {
+            ui.weak(more);
+        }
     }
     let label = ui.label("Query");
     let field = TextEdit::singleline(&mut find.query).hint_text("maxSpeed > 1 and id ~ dock");
     let field = ui.add(field).labelled_by(label.id);
+    if field.changed() {
+        find.query_error = None;
+    }
     if field.lost_focus() && is_entered(ui) {
         actions.push(Action::SelectByQuery(SelectMode::Replace));
     }

@@ -1,20 +1,26 @@
-//! The Findings section: results of the check, and the option of the next one.
+//! The Findings tab: results of the checks, their fixes, and the options of the next check.
 
-use eframe::egui::{CollapsingHeader, DragValue, Ui};
-use guideway_document::locate;
-use guideway_layout::{CheckOptions, Diagnostics, FindingKind, Place};
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{CollapsingHeader, Color32, DragValue, RichText, TextFormat, Ui, WidgetText};
+use guideway_document::{
+    Document, Element, ProposedFix, fix_all, fixes, has_fixes, locate, located, text_format,
+};
+use guideway_layout::{CheckOptions, Code, Diagnostic, Diagnostics, FindingKind};
 
 use crate::action::Action;
+use crate::canvas::severity_color;
+use crate::editing::{EditTask, MarkedSeverities, SEVERITIES};
 use crate::files::{Layer, OpenFiles};
 
 /// Longest list of findings of one kind.
 const MAX_LISTED: usize = 200;
 
-/// The option of the next check.
+/// The options of the next check, and the findings that the drawing shows.
 #[derive(Default)]
 pub(crate) struct FindingsPanel {
     /// Bends tighter than this radius are findings; 0 turns that check off.
     pub(crate) min_radius_m: f64,
+    pub(crate) marked: MarkedSeverities,
 }
 
 impl FindingsPanel {
@@ -26,30 +32,58 @@ impl FindingsPanel {
         }
     }
 
-    /// Shows the section.
+    /// The name of the tab, with the number of errors, warnings and notes in their colors.
+    pub(super) fn title(files: &OpenFiles) -> WidgetText {
+        let findings = files.active().and_then(|layer| layer.tasks.findings());
+        let counts = findings.map_or([0; 3], |findings| by_severity(&findings.diagnostics));
+        let mut title = LayoutJob::default();
+        let mut add = |text: &str, color: Color32| {
+            let format = TextFormat {
+                color,
+                ..TextFormat::default()
+            };
+            title.append(text, 0.0, format);
+        };
+        add("Findings", Color32::PLACEHOLDER);
+        for (count, severity) in counts.into_iter().zip(SEVERITIES) {
+            if count > 0 {
+                let count = format!(" {}", text_format::count(count));
+                add(&count, severity_color(severity));
+            }
+        }
+        title.into()
+    }
+
+    /// Shows the tab.
     pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
         let Some(layer) = files.active() else {
+            ui.label("No file is open");
             return;
         };
         self.show_check(ui, layer, actions);
         let Some(findings) = layer.tasks.findings() else {
             return;
         };
+        self.show_switches(ui, by_severity(&findings.diagnostics));
         let state = layer.document().map(|document| document.state());
         if state.is_some_and(|state| state != findings.state) {
             ui.small("These findings predate the last change");
         }
-        let clicked = list(ui, &findings.diagnostics);
-        if let (Some(place), Some(document)) = (clicked, layer.document()) {
-            actions.push(match locate(document.layout(), &place) {
-                Some(element) => Action::ZoomTo(element),
-                None => Action::Notify(format!("{place} has no position in the plane")),
-            });
+        if findings.diagnostics.is_empty() {
+            ui.label("No findings");
+        }
+        for kind in FindingKind::of([&findings.diagnostics]) {
+            let list = KindList {
+                kind,
+                findings: &findings.diagnostics,
+                document: layer.document(),
+            };
+            list.show(ui, actions);
         }
     }
 
     fn show_check(&mut self, ui: &mut Ui, layer: &Layer, actions: &mut Vec<Action>) {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let radius = DragValue::new(&mut self.min_radius_m).range(0.0..=1000.0);
             let radius = radius.speed(0.05).prefix("Minimum radius ").suffix(" m");
             ui.add(radius)
@@ -60,46 +94,121 @@ impl FindingsPanel {
                     actions.push(Action::Check(self.check_options()));
                 }
             });
+            if layer.tasks.is_checking() {
+                ui.spinner();
+            }
         });
-        if layer.tasks.is_checking() {
-            ui.label("Check in progress");
-        }
+    }
+
+    /// Shows a switch per severity for the marks in the drawing.
+    fn show_switches(&mut self, ui: &mut Ui, counts: [u64; 3]) {
+        ui.horizontal_wrapped(|ui| {
+            ui.label("In the drawing:");
+            let names = ["error", "warning", "note"].into_iter().zip(SEVERITIES);
+            let switches = self.marked.0.iter_mut().zip(counts);
+            for ((name, severity), (is_on, count)) in names.zip(switches) {
+                let text = RichText::new(text_format::counted(count, name));
+                ui.checkbox(is_on, text.color(severity_color(severity)));
+            }
+        });
     }
 }
 
-/// Lists findings by kind. Returns the place of a clicked one.
-fn list(ui: &mut Ui, findings: &Diagnostics) -> Option<Place> {
-    if findings.is_empty() {
-        ui.label("No findings");
-    }
-    let mut clicked = None;
-    for kind in FindingKind::of([findings]) {
+/// Numbers of errors, warnings and notes.
+fn by_severity(findings: &Diagnostics) -> [u64; 3] {
+    let [errors, warnings, all] = SEVERITIES.map(|severity| findings.count_at_least(severity));
+    [errors, warnings - errors, all - warnings]
+}
+
+/// The findings of one kind.
+struct KindList<'a> {
+    kind: FindingKind,
+    findings: &'a Diagnostics,
+    document: Option<&'a Document>,
+}
+
+impl KindList<'_> {
+    fn show(&self, ui: &mut Ui, actions: &mut Vec<Action>) {
         let FindingKind {
             code,
             severity,
             count,
-        } = kind;
-        let title = format!("{severity}: {code} ({count})");
-        CollapsingHeader::new(title).show(ui, |ui| {
+        } = self.kind;
+        let title = format!("{} ({})", title_of(code), text_format::count(count));
+        let title = RichText::new(title).color(severity_color(severity));
+        let header = CollapsingHeader::new(title).id_salt((code, severity as u8));
+        header.show(ui, |ui| {
             ui.small(code.meaning());
-            let of_kind = findings.iter().filter(|finding| kind.has(finding));
-            let listed: Vec<_> = of_kind.take(MAX_LISTED).collect();
-            for finding in &listed {
-                let text = format!("{}: {}", finding.place, finding.message);
-                if ui.link(text).on_hover_text(&finding.remedy).clicked() {
-                    clicked = Some(finding.place.clone());
-                }
+            let of_kind = || self.findings.iter().filter(|f| self.kind.has(f));
+            if let Some(fix) = self.fix_all(of_kind()) {
+                offer(ui, &fix, actions);
             }
-            if count > listed.len() as u64 {
-                ui.small(format!("and {} more", count - listed.len() as u64));
+            for (number, finding) in of_kind().take(MAX_LISTED).enumerate() {
+                ui.push_id(number, |ui| self.show_finding(ui, finding, actions));
+            }
+            let more = count.saturating_sub(MAX_LISTED as u64);
+            if more > 0 {
+                ui.small(format!("and {} more", text_format::count(more)));
             }
         });
     }
-    clicked
+
+    fn show_finding(&self, ui: &mut Ui, finding: &Diagnostic, actions: &mut Vec<Action>) {
+        let text = format!("{}: {}", finding.place, finding.message);
+        let link = ui.link(text).on_hover_text(&finding.remedy);
+        if let (true, Some(document)) = (link.clicked(), self.document) {
+            actions.push(match locate(document.layout(), &finding.place) {
+                Some(element) => Action::ZoomTo(element),
+                None => Action::Notify(format!("{} has no position in the plane", finding.place)),
+            });
+        }
+        let element = located(&finding.place).filter(|_| has_fixes(finding.code));
+        if let (Some(element), Some(document)) = (element, self.document) {
+            ui.menu_button("Fix", |ui| {
+                let proposed = fixes(document, finding.code, element);
+                if proposed.is_empty() {
+                    ui.label("Nothing can be done here automatically");
+                }
+                for fix in proposed {
+                    if offer(ui, &fix, actions) {
+                        ui.close();
+                    }
+                }
+            });
+        }
+    }
+
+    fn fix_all<'f>(&self, findings: impl Iterator<Item = &'f Diagnostic>) -> Option<ProposedFix> {
+        let document = self.document.filter(|_| has_fixes(self.kind.code))?;
+        let elements = findings.filter_map(|finding| located(&finding.place));
+        let elements: Vec<Element> = elements.collect();
+        fix_all(document, self.kind.code, &elements).filter(|_| elements.len() > 1)
+    }
+}
+
+/// Offers a fix. Returns `true` if it is clicked.
+fn offer(ui: &mut Ui, proposed: &ProposedFix, actions: &mut Vec<Action>) -> bool {
+    let is_clicked = ui.button(&proposed.label).clicked();
+    if is_clicked {
+        let fix = proposed.fix.clone();
+        let edit = move |document: &mut Document| document.fix(&fix);
+        actions.push(Action::Edit(EditTask::edit(edit)));
+    }
+    is_clicked
+}
+
+/// The name of a code in words: `Reverse pair`.
+fn title_of(code: Code) -> String {
+    let words = code.name().replace('-', " ");
+    let mut letters = words.chars();
+    let first = letters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use guideway_layout::{Place, Severity};
+
     use super::*;
 
     #[test]
@@ -108,5 +217,15 @@ mod tests {
         assert_eq!(panel.check_options().min_radius_m, None);
         panel.min_radius_m = 0.5;
         assert_eq!(panel.check_options().min_radius_m, Some(0.5));
+    }
+
+    #[test]
+    fn findings_are_counted_by_severity() {
+        let mut found = Diagnostics::default();
+        for severity in [Severity::Info, Severity::Info, Severity::Error] {
+            found.push_as(severity, Code::Kink, Place::default, String::new, "");
+        }
+        assert_eq!(by_severity(&found), [1, 0, 2]);
+        assert_eq!(title_of(Code::ReversePair), "Reverse pair");
     }
 }

@@ -1,33 +1,37 @@
-//! The panels of the window: menu bar, drawing bar, status bar, side panel, dialogs.
+//! The panels of the window: menu bar, drawing bar, status bar, side panel, bottom panel, dialogs.
 //!
 //! Panels own the state of their own fields only. They read the other parts and return
 //! [`Action`](crate::action::Action)s.
 
+mod bottom_panel;
 mod command_state;
+mod compare_panel;
 pub(crate) mod dialogs;
 mod display_panel;
 mod drawing_bar;
-mod files_panel;
 mod find_panel;
 mod findings_panel;
 mod icons;
+mod layers_panel;
 mod menu_bar;
 mod new_edges;
-mod path_panel;
 mod properties;
 mod render_panel;
+mod route_panel;
 mod selection_panel;
 mod side_panel;
 mod status_bar;
+mod table;
 mod toolbar;
 mod welcome;
 
+pub(crate) use bottom_panel::{BottomPanel, BottomView};
 pub(crate) use command_state::CommandState;
 pub(crate) use drawing_bar::DrawingBar;
 pub(crate) use findings_panel::FindingsPanel;
 pub(crate) use menu_bar::{MenuBar, command_list};
 pub(crate) use new_edges::NewEdgesPanel;
 pub(crate) use properties::PropertiesPanel;
-pub(crate) use side_panel::SidePanel;
+pub(crate) use side_panel::{SidePanel, SideTab, SideTabs};
 pub(crate) use status_bar::StatusBar;
 pub(crate) use welcome::Welcome;

@@ -1,24 +1,26 @@
-//! The Selection section: moves, copies and rotations by numbers.
+//! The head of the Properties tab: what is selected, and moves, copies and rotations by numbers.
 
-use eframe::egui::{DragValue, Ui};
+use eframe::egui::{DragValue, Label, Ui};
 use guideway_document::{Elements, text_format};
 use guideway_scene::Table;
 
 use crate::action::Action;
-use crate::files::OpenFiles;
+use crate::files::{Layer, OpenFiles};
 use crate::selection::ExactEdit;
 
-/// Shows the section.
+/// Shows the head, which always takes the same space.
 pub(super) fn show(
     ui: &mut Ui,
     files: &OpenFiles,
     exact: &mut ExactEdit,
     actions: &mut Vec<Action>,
 ) {
-    ui.label(match files.document() {
+    let text = match files.document() {
         Some(document) => summary(document.selected()),
-        None => "An edit is in progress".to_owned(),
-    });
+        None if files.active().is_some_and(Layer::is_busy) => "An edit is in progress".to_owned(),
+        None => "No layout is open".to_owned(),
+    };
+    ui.add(Label::new(text).truncate());
     ui.horizontal(|ui| {
         ui.label("Offset");
         ui.add(DragValue::new(&mut exact.by_x_m).speed(0.1).suffix(" m"));
@@ -47,7 +49,7 @@ pub(super) fn show(
 }
 
 /// `2 paths and 1 station selected`.
-fn summary(selected: &Elements) -> String {
+pub(super) fn summary(selected: &Elements) -> String {
     let counts = Table::ALL.into_iter().filter_map(|of| {
         let count = selected.rows(of).len();
         (count > 0).then(|| text_format::counted(count, of.element()))

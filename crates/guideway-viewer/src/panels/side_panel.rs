@@ -1,10 +1,10 @@
-//! The side panel: one collapsible section per part of the window.
+//! The side panel: tabs with fixed places, one per part of the window.
 
-use eframe::egui::{CollapsingHeader, Ui};
+use eframe::egui::{CollapsingHeader, Rect, ScrollArea, TextWrapMode, Ui, UiBuilder};
 
 use super::findings_panel::FindingsPanel;
 use super::properties::PropertiesPanel;
-use super::{display_panel, files_panel, find_panel, path_panel, render_panel, selection_panel};
+use super::{display_panel, find_panel, layers_panel, render_panel, selection_panel};
 use crate::action::Action;
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
 use crate::display_settings::DisplaySettings;
@@ -12,8 +12,68 @@ use crate::files::OpenFiles;
 use crate::render_queue::MethodSelection;
 use crate::selection::{ExactEdit, Find};
 
+/// Windows narrower than this begin without the panel, in points: the drawing needs the space.
+const MIN_WINDOW_WIDTH: f32 = 700.0;
+
+/// A tab of the side panel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum SideTab {
+    Layers,
+    #[default]
+    Properties,
+    Find,
+    Findings,
+    View,
+}
+
+impl SideTab {
+    pub(crate) const ALL: [Self; 5] = [
+        Self::Layers,
+        Self::Properties,
+        Self::Find,
+        Self::Findings,
+        Self::View,
+    ];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Layers => "Layers",
+            Self::Properties => "Properties",
+            Self::Find => "Find",
+            Self::Findings => "Findings",
+            Self::View => "View",
+        }
+    }
+}
+
+/// The tab in front, and whether the user wants the panel.
+#[derive(Default)]
+pub(crate) struct SideTabs {
+    pub(crate) tab: SideTab,
+    /// `None` until the user decides: then the width of the window does.
+    wanted: Option<bool>,
+}
+
+impl SideTabs {
+    /// Returns `true` if the panel is shown in a window of this width in points.
+    pub(crate) fn is_open(&self, window_width: f32) -> bool {
+        self.wanted.unwrap_or(window_width >= MIN_WINDOW_WIDTH)
+    }
+
+    /// Shows the panel if it is hidden, and the other way round.
+    pub(crate) fn toggle(&mut self, window_width: f32) {
+        self.wanted = Some(!self.is_open(window_width));
+    }
+
+    /// Shows a tab.
+    pub(crate) fn open(&mut self, tab: SideTab) {
+        (self.tab, self.wanted) = (tab, Some(true));
+    }
+}
+
 /// The parts whose fields the side panel edits.
 pub(crate) struct SidePanel<'a> {
+    pub(crate) tabs: &'a mut SideTabs,
     pub(crate) files: &'a mut OpenFiles,
     pub(crate) floor_plan: &'a mut FloorPlanLayer,
     pub(crate) exact_edit: &'a mut ExactEdit,
@@ -26,33 +86,82 @@ pub(crate) struct SidePanel<'a> {
 }
 
 impl SidePanel<'_> {
-    /// Shows all sections and returns the actions of clicks.
+    /// Shows the tab in front and returns the actions of clicks.
     pub(crate) fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
+        // Long content must not push the edge of the panel.
+        let rect = ui.available_rect_before_wrap();
+        let mut inner = ui.new_child(UiBuilder::new().max_rect(rect));
+        inner.shrink_clip_rect(rect);
+        let actions = self.show_inside(&mut inner, rect);
+        ui.advance_cursor_after_rect(rect);
+        actions
+    }
+
+    fn show_inside(&mut self, ui: &mut Ui, rect: Rect) -> Vec<Action> {
+        ui.set_max_width(rect.width());
+        self.show_tabs(ui);
+        ui.separator();
         let mut actions = Vec::new();
-        let section = |title, is_open| CollapsingHeader::new(title).default_open(is_open);
-        section("Files", true).show(ui, |ui| {
-            files_panel::show(ui, self.files, self.floor_plan, &mut actions);
-        });
-        section("Properties", true).show(ui, |ui| {
-            path_panel::show(ui, self.files);
-            self.properties.show(ui, self.files, &mut actions);
-        });
-        section("Selection", true).show(ui, |ui| {
-            selection_panel::show(ui, self.files, self.exact_edit, &mut actions);
-        });
-        section("Find", true).show(ui, |ui| {
-            find_panel::show(ui, self.files, self.find, &mut actions);
-        });
-        section("Display", false).show(ui, |ui| {
-            let (settings, swept_areas) = (&mut *self.settings, &mut *self.swept_areas);
-            display_panel::show(ui, self.files, settings, swept_areas, &mut actions);
-        });
-        section("Findings", false).show(ui, |ui| {
-            self.findings.show(ui, self.files, &mut actions);
-        });
-        section("Rendering", false).show(ui, |ui| {
-            render_panel::show(ui, self.files, self.methods, &mut actions);
+        let tab = self.tabs.tab;
+        let scroll = ScrollArea::vertical().id_salt(tab.name());
+        scroll.auto_shrink(false).show(ui, |ui| {
+            ui.style_mut().wrap_mode = Some(TextWrapMode::Wrap);
+            self.show_tab(tab, ui, &mut actions);
         });
         actions
+    }
+
+    fn show_tabs(&mut self, ui: &mut Ui) {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 1.0;
+            ui.spacing_mut().button_padding.x = 5.0;
+            for tab in SideTab::ALL {
+                let title = match tab {
+                    SideTab::Findings => FindingsPanel::title(self.files),
+                    _ => tab.name().into(),
+                };
+                ui.selectable_value(&mut self.tabs.tab, tab, title);
+            }
+        });
+    }
+
+    fn show_tab(&mut self, tab: SideTab, ui: &mut Ui, actions: &mut Vec<Action>) {
+        match tab {
+            SideTab::Layers => {
+                let (files, plan) = (&mut *self.files, &mut *self.floor_plan);
+                layers_panel::show(ui, files, plan, self.settings, actions);
+            }
+            SideTab::Properties => {
+                selection_panel::show(ui, self.files, self.exact_edit, actions);
+                ui.separator();
+                self.properties.show(ui, self.files, actions);
+            }
+            SideTab::Find => find_panel::show(ui, self.files, self.find, actions),
+            SideTab::Findings => self.findings.show(ui, self.files, actions),
+            SideTab::View => {
+                let (settings, swept_areas) = (&mut *self.settings, &mut *self.swept_areas);
+                display_panel::show(ui, self.files, settings, swept_areas, actions);
+                CollapsingHeader::new("Rendering").show(ui, |ui| {
+                    render_panel::show(ui, self.files, self.methods, actions);
+                });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrow_window_hides_the_panel_until_the_user_wants_it() {
+        let mut tabs = SideTabs::default();
+        assert!(tabs.is_open(1200.0) && !tabs.is_open(340.0));
+        tabs.toggle(340.0);
+        assert!(tabs.is_open(1200.0) && tabs.is_open(340.0));
+        tabs.toggle(1200.0);
+        assert!(!tabs.is_open(1200.0));
+        tabs.open(SideTab::Find);
+        assert!(tabs.is_open(340.0) && tabs.tab == SideTab::Find);
     }
 }

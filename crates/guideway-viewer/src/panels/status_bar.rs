@@ -1,11 +1,19 @@
-//! The status bar: pointer position, scale, tool hint, render time, path under the pointer.
+//! The status bar: position of the pointer, scale, hint of the tool, selection, and the path under
+//! the pointer.
 
 use eframe::egui::{Label, Ui};
+use guideway_document::{Document, Hit, text_format};
+use guideway_layout::Direction;
 
+use super::selection_panel::summary;
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
+use crate::editing::MarkedSeverities;
 use crate::files::OpenFiles;
-use crate::tools::{MAX_HOVER_CANDIDATES, Tool, Tools};
+use crate::tools::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
+
+/// Size of a point of a screen at 96 points per inch, in meters.
+const POINT_M: f64 = 0.0254 / 96.0;
 
 /// The content of the status bar.
 pub(crate) struct StatusBar<'a> {
@@ -13,46 +21,112 @@ pub(crate) struct StatusBar<'a> {
     pub(crate) files: &'a OpenFiles,
     pub(crate) tools: &'a Tools,
     pub(crate) settings: &'a DisplaySettings,
+    pub(crate) other_hit: Option<&'a OtherHit>,
+    pub(crate) marked_findings: MarkedSeverities,
 }
 
 impl StatusBar<'_> {
     pub(crate) fn show(&self, ui: &mut Ui) {
         ui.horizontal(|ui| {
-            if let (Some(view), Some(at_px)) = (self.canvas.camera.view(), self.canvas.pointer_px())
-            {
-                let at_m = view.world_from_pixel(at_px);
-                ui.monospace(format!("{:.3} m, {:.3} m", at_m.x, at_m.y));
-                ui.separator();
-                ui.monospace(format!("{:.4} px/m", view.px_per_m()));
+            self.show_position(ui);
+            if let Some(finding) = self.finding() {
+                ui.add(Label::new(finding).truncate());
+                return;
+            }
+            let document = self.files.document();
+            if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {
+                let hovered = hovered(document, hit);
+                ui.add(Label::new(hovered).truncate());
+                return;
+            }
+            if let Some(text) = self.other_hit.and_then(|hit| self.hovered_elsewhere(hit)) {
+                ui.add(Label::new(text).truncate());
+                return;
+            }
+            let selected = document.map(Document::selected);
+            if let Some(selected) = selected.filter(|selected| !selected.is_empty()) {
+                ui.label(summary(selected));
                 ui.separator();
             }
-            ui.label(tool_hint(self.tools.tool()));
-            ui.separator();
             let layer = self.files.active();
-            if let Some(shown) = layer.and_then(|layer| layer.picture.shown()) {
-                let (method, ms) = (shown.report.method, shown.report.frame_ms());
-                ui.monospace(format!("{method} {ms:.1} ms"));
-                ui.separator();
-            }
             let overlay = layer.and_then(|layer| layer.slot.overlay().last());
             if self.settings.has_marks() && overlay.is_some_and(|o| o.marks.left_out) {
                 ui.label("Zoom in to show all marks");
                 ui.separator();
             }
-            let document = self.files.document();
-            if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {
-                let id = |path: u32| document.layout().paths.id(path as usize);
-                let text = match document.reverse_path_at(hit, MAX_HOVER_CANDIDATES) {
-                    Some(reverse) => format!(
-                        "{} (a second click selects the reverse path {})",
-                        id(hit.path),
-                        id(reverse)
-                    ),
-                    None => id(hit.path).to_owned(),
-                };
-                ui.add(Label::new(text).truncate());
-            }
+            ui.add(Label::new(tool_hint(self.tools.tool())).truncate());
         });
+    }
+
+    /// The finding under the pointer.
+    fn finding(&self) -> Option<&str> {
+        let (view, at_px) = (self.canvas.camera.view()?, self.canvas.pointer_px()?);
+        let layer = self.files.active()?;
+        let reach_m = HIT_RADIUS_PX * self.canvas.px_per_point() / view.px_per_m();
+        let findings = layer.tasks.findings()?;
+        let at_m = view.world_from_pixel(at_px);
+        let finding = findings.near(at_m, reach_m, self.marked_findings)?;
+        Some(&finding.text)
+    }
+
+    /// The path under the pointer in another file.
+    fn hovered_elsewhere(&self, other: &OtherHit) -> Option<String> {
+        let layer = self.files.layers().get(other.file)?;
+        let document = layer.document()?;
+        let (path, name) = (hovered(document, &other.hit), layer.name());
+        Some(format!("{path}, in {name} (a click edits this file)"))
+    }
+
+    /// Shows the position of the pointer and the scale, in fields of constant width.
+    fn show_position(&self, ui: &mut Ui) {
+        let Some(view) = self.canvas.camera.view() else {
+            return;
+        };
+        let at_m = self.canvas.pointer_px().map(|at| view.world_from_pixel(at));
+        let position = at_m.map_or_else(
+            || "x           y          ".to_owned(),
+            |at_m| format!("x {:>9.3} y {:>9.3} m", at_m.x, at_m.y),
+        );
+        ui.monospace(position)
+            .on_hover_text("Position of the pointer");
+        ui.separator();
+        let scale = scale_text(view.px_per_m() / self.canvas.px_per_point());
+        ui.monospace(scale)
+            .on_hover_text("Scale on a screen of 96 points per inch");
+        ui.separator();
+    }
+}
+
+/// `1:250`, to two digits.
+fn scale_text(points_per_m: f64) -> String {
+    let exact = 1.0 / (points_per_m * POINT_M);
+    if exact < 1.0 {
+        return format!("{:.0}:1", 1.0 / exact);
+    }
+    let unit = 10f64.powf(exact.log10().floor() - 1.0).max(1.0);
+    format!(
+        "1:{}",
+        text_format::count(((exact / unit).round() * unit) as u64)
+    )
+}
+
+/// The path under the pointer, and its reverse path.
+fn hovered(document: &Document, hit: &Hit) -> String {
+    let paths = &document.layout().paths;
+    let path = paths.get(hit.path as usize);
+    let way = match path.direction() {
+        Direction::Forward => "one-way",
+        Direction::Both => "two-way",
+    };
+    let id = |path: u32| paths.id(path as usize);
+    let length = text_format::length(path.length_m());
+    let text = format!("path {}: {length}, {way}", id(hit.path));
+    match document.reverse_path_at(hit, MAX_HOVER_CANDIDATES) {
+        Some(reverse) => {
+            let reverse = id(reverse);
+            format!("{text} (a second click selects the reverse path {reverse})")
+        }
+        None => text,
     }
 }
 
@@ -66,5 +140,17 @@ fn tool_hint(tool: Tool) -> &'static str {
         Tool::Node => "Click to create a node, on a path to split it",
         Tool::Station => "Click a node to put a station there, or a free place",
         Tool::Measure => "Click to add points; a double click starts over",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scale_has_two_digits() {
+        let texts = [1.0 / POINT_M, 15.1, 3.7795, 0.01].map(scale_text);
+        assert_eq!(texts, ["1:1", "1:250", "1:1,000", "1:380,000"]);
+        assert_eq!(scale_text(37_800.0), "10:1");
     }
 }

@@ -1,11 +1,12 @@
 //! Search by name, and the query that selects paths.
 
-use guideway_document::{Document, Element, search};
+use guideway_document::{Document, Element, search, text_format};
+use guideway_scene::Table;
 
 use crate::background::{BackgroundTask, RepaintHandle};
 
-/// Longest list of results.
-const MAX_RESULTS: usize = 30;
+/// Longest list of results of one kind of element.
+const MAX_RESULTS: u64 = 30;
 
 /// The search fields and their results.
 #[derive(Default)]
@@ -19,6 +20,8 @@ pub(crate) struct Find {
     /// True if to zoom to the first result.
     pub(crate) zooms_to_first: bool,
     results: Vec<Element>,
+    /// Nodes, stations and paths beyond the list.
+    more: [u64; 3],
     search: Option<BackgroundTask<Vec<Element>>>,
 }
 
@@ -28,8 +31,20 @@ impl Find {
         let layout = document.map(|document| document.scene().shared_layout());
         self.search = layout.map(|layout| {
             let name = self.name.clone();
-            BackgroundTask::start(repaint, move || search(&layout, &name, MAX_RESULTS))
+            BackgroundTask::start(repaint, move || search(&layout, &name, usize::MAX))
         });
+    }
+
+    /// The numbers of matches beyond the listed ones: `and 1,020 more paths`.
+    pub(crate) fn more(&self) -> Vec<String> {
+        let kinds = [Table::Nodes, Table::Stations, Table::Paths];
+        let more = kinds.into_iter().zip(self.more);
+        let more = more.filter(|(_, count)| *count > 0);
+        more.map(|(of, count)| {
+            let what = format!("more {}", of.element());
+            format!("and {}", text_format::counted(count, &what))
+        })
+        .collect()
     }
 
     /// The results that exist in the document, which may have changed since the search.
@@ -42,13 +57,34 @@ impl Find {
     pub(crate) fn poll(&mut self, document: Option<&Document>) -> Option<Element> {
         if let Some(results) = self.search.as_ref().and_then(BackgroundTask::result) {
             self.search = None;
-            self.results = results.unwrap_or_default();
+            self.take(results.unwrap_or_default(), document);
         }
         if self.search.is_some() || !std::mem::take(&mut self.zooms_to_first) {
             return None;
         }
         let first = self.results.first().copied()?;
         document.and_then(|d| d.contains(first).then_some(first))
+    }
+}
+
+impl Find {
+    /// Lists the first matches of each kind, and counts the others.
+    fn take(&mut self, results: Vec<Element>, document: Option<&Document>) {
+        self.results.clear();
+        let mut counts = [0; 3];
+        let exists = |element: &Element| document.is_none_or(|d| d.contains(*element));
+        for element in results.into_iter().filter(exists) {
+            let kind = match element {
+                Element::Node(_) => 0,
+                Element::Station(_) => 1,
+                Element::Path(_) => 2,
+            };
+            if counts[kind] < MAX_RESULTS {
+                self.results.push(element);
+            }
+            counts[kind] += 1;
+        }
+        self.more = counts.map(|count| count.saturating_sub(MAX_RESULTS));
     }
 }
 
@@ -77,7 +113,12 @@ mod tests {
         });
         assert_eq!(found, Some(Element::Path(37)));
         assert_eq!(find.results(&document).next(), Some(Element::Path(37)));
+        assert!(find.more().is_empty());
+        let all = search(document.layout(), "lane", usize::MAX);
+        find.take(all, Some(&document));
+        assert_eq!(find.results(&document).count(), 30);
+        assert_eq!(find.more(), ["and 10 more paths"]);
         let shorter = Document::new(lanes(3).into(), &Default::default()).unwrap();
-        assert_eq!(find.results(&shorter).count(), 0);
+        assert_eq!(find.results(&shorter).count(), 3);
     }
 }

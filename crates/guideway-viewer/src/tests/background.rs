@@ -11,6 +11,7 @@ use guideway_spline::Point;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
+use crate::panels::SideTab;
 use crate::services::{AppServices, PictureRequest, SweptAreas};
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -268,6 +269,7 @@ fn exported_picture_has_all_visible_parts() {
 #[test]
 fn unreadable_floor_plan_shows_its_error_until_removed() {
     let mut window = TestWindow::showing(lanes(2));
+    window.app().side.open(SideTab::Layers);
     set_floor_plan(&mut window, "hall.png");
     window.wait(|app| app.floor_plan.error().is_some());
     assert!(

@@ -5,6 +5,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::services::{TestServices, lanes};
 use super::test_window::TestWindow;
+use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -20,6 +21,8 @@ fn selects_the_best_method_and_lets_the_user_choose() {
     let mut window = TestWindow::open(&disk, &["site.arrow"], None);
     window.wait(|app| rendered_by(app) == Some("device"));
     assert_eq!(window.app().methods.name(), "device");
+    window.app().side.open(SideTab::View);
+    window.harness.run_steps(2);
     window.harness.get_by_label("Rendering").click();
     window.harness.run_steps(8);
     window.harness.get_by_label("Render method").click();

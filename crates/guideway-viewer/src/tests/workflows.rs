@@ -11,6 +11,7 @@ use guideway_spline::Point;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
+use crate::panels::SideTab;
 use crate::render_queue::{RenderEvent, RenderRequest, Renderer};
 use crate::tools::Tool;
 
@@ -159,6 +160,8 @@ fn wheel_keys_and_drags_move_the_view() {
 #[test]
 fn query_selects_and_shows_its_error() {
     let mut window = TestWindow::showing(lanes(6));
+    window.app().side.open(SideTab::Find);
+    window.harness.run_steps(2);
     window.harness.get_by_label("Query").click();
     window.harness.run_steps(2);
     window.harness.get_by_label("Query").type_text("speed >= 2");

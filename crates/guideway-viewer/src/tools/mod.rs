@@ -15,6 +15,7 @@ mod drag;
 mod draw_tool;
 mod gesture;
 mod hit_test;
+mod other_hit;
 mod place_tool;
 mod pointer_event;
 mod points_tool;
@@ -28,6 +29,7 @@ mod typing;
 
 pub(crate) use gesture::Gesture;
 pub(crate) use hit_test::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES};
+pub(crate) use other_hit::OtherHit;
 pub(crate) use pointer_event::PointerEvent;
 pub(crate) use tool::Tool;
 pub(crate) use tool_context::ToolContext;

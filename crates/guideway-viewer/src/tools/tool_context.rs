@@ -59,7 +59,7 @@ impl<'a> ToolContext<'a> {
     }
 
     /// The station or node under the pointer.
-    pub(super) fn pick_symbol(&self, at_px: Point<f64>) -> Option<Element> {
+    pub(crate) fn pick_symbol(&self, at_px: Point<f64>) -> Option<Element> {
         let document: &'a Document = self.document.filter(|_| self.picks_symbols)?;
         let (at_m, radius_m) = (self.world(at_px), self.hit_radius_m());
         let station = document.station_near(at_m, radius_m).map(Element::Station);
@@ -67,7 +67,7 @@ impl<'a> ToolContext<'a> {
     }
 
     /// The topmost path under the pointer; `None` if more than `max_candidates` are near it.
-    pub(super) fn pick(&self, at_px: Point<f64>, max_candidates: usize) -> Option<Hit> {
+    pub(crate) fn pick(&self, at_px: Point<f64>, max_candidates: usize) -> Option<Hit> {
         let (px_per_m, at_m) = (self.view.px_per_m(), self.world(at_px));
         self.document?.pick(
             self.line_rule,

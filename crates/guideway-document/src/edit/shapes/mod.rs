@@ -6,6 +6,7 @@
 //! | `split`, `crossings` | selected paths, a point | pieces of paths between nodes |
 //! | `join` | a node with two paths | one path |
 //! | `weld` | selected paths, a distance | fewer nodes |
+//! | `attach` | selected paths | paths that end at their nodes |
 //! | `straighten` | selected paths | lines |
 //! | `align` | nodes | nodes on a line, or evenly spaced |
 //! | `fillet`, `arms` | a node at a corner, a radius | an arc between two nodes |
@@ -16,6 +17,7 @@
 
 mod align;
 mod arms;
+mod attach;
 mod connect;
 mod crossings;
 mod drawing;

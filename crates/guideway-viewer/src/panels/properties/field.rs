@@ -22,7 +22,7 @@ pub(super) enum Common {
 
 /// Kind of the values that a field takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FieldKind {
+pub(in crate::panels) enum FieldKind {
     Flag,
     Integer,
     Number,
@@ -103,7 +103,7 @@ pub(super) fn common<'a>(mut values: impl Iterator<Item = Option<Value<'a>>>) ->
 
 /// Kind of the field of a column. A column may have another type than the known property of its
 /// name; then the column decides.
-fn kind_of(name: &str, values: &Values) -> FieldKind {
+pub(in crate::panels) fn kind_of(name: &str, values: &Values) -> FieldKind {
     let known = Property::named(name).map(|property| property.kind);
     match (values, known) {
         (Values::Bool(_), _) => FieldKind::Flag,

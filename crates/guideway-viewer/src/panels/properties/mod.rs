@@ -1,12 +1,14 @@
-//! The Properties section: facts and properties of what is selected, as fields that edit.
+//! The Properties tab: facts and properties of what is selected, as fields that edit.
 //!
 //! A text becomes an edit when it is confirmed: by Enter, by leaving its field, or by a press on
 //! the canvas. Escape takes it back.
 
+mod curvature_plot;
 mod draft;
 mod facts;
 mod field;
 mod pickers;
+mod shape;
 mod shown;
 mod typed_value;
 
@@ -15,14 +17,19 @@ use guideway_document::Document;
 use guideway_layout::{ElementKind, PROPERTIES, Property};
 use guideway_scene::Table;
 
+pub(super) use self::field::{FieldKind, kind_of};
+pub(super) use self::typed_value::TypedValue;
+
 use self::draft::{Draft, Subject, Target};
-use self::field::{Common, Field, FieldKind, MAX_COMPARED};
+use self::field::{Common, Field, MAX_COMPARED};
 use self::shown::Shown;
 use crate::action::Action;
-use crate::files::OpenFiles;
+use crate::files::{Layer, OpenFiles};
 
 /// Width of the names beside the fields, in points.
 const NAME_WIDTH: f32 = 130.0;
+/// Width of the button behind a field, in points.
+const BUTTON_WIDTH: f32 = 30.0;
 
 /// The section: what is shown, and the text that is being typed.
 #[derive(Default)]
@@ -32,6 +39,8 @@ pub(crate) struct PropertiesPanel {
     draft: Option<Draft>,
     /// Properties that the selection gets once they have a value.
     added: Vec<(Table, &'static Property)>,
+    /// Vehicle types that get a value of their own: table, property, type.
+    added_types: Vec<(Table, String, String)>,
     /// Name of a vehicle type to add.
     new_type: String,
 }
@@ -52,19 +61,19 @@ impl PropertiesPanel {
 
     /// Shows the fields of the selection.
     pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
-        let Some(document) = files.document() else {
-            // A text that is being typed waits for the edit in progress.
-            ui.label("…");
-            return;
-        };
-        let selected = document.selected();
-        if selected.is_empty() {
+        // While an edit has the document the fields stay; what is typed is queued behind the edit.
+        if let Some(document) = files.document() {
+            if document.selected().is_empty() {
+                self.shown.clear();
+                self.added.clear();
+                self.added_types.clear();
+                ui.label("Select paths, nodes or stations to see and edit their properties");
+                return;
+            }
+            self.update(document, files.active_index());
+        } else if !files.active().is_some_and(Layer::is_busy) {
             self.shown.clear();
-            self.added.clear();
-            ui.label("Select paths, nodes or stations to see and edit their properties");
-            return;
         }
-        self.update(document, files.active_index());
         for shown in std::mem::take(&mut self.shown) {
             self.show_table(ui, &shown, actions);
             self.shown.push(shown);
@@ -88,6 +97,10 @@ impl PropertiesPanel {
 
     fn show_table(&mut self, ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
         ui.strong(shown.heading());
+        if let Some(shape) = &shown.shape {
+            ui.label(&shape.text);
+            curvature_plot::show(ui, &shape.bends);
+        }
         if shown.rows.len() > MAX_COMPARED as u64 {
             ui.small(format!("Values are those of the first {MAX_COMPARED}"));
         }
@@ -147,17 +160,61 @@ impl PropertiesPanel {
         let label = ui.add(Label::new(&name).truncate());
         let meaning = Property::named(&field.name).map_or(&*name, |property| property.meaning);
         label.on_hover_text(meaning);
-        if field.per_type.is_empty() || field.shared != Common::None {
+        ui.horizontal(|ui| {
             self.value_field(ui, shown, field, None, actions);
-        } else {
-            ui.weak("per vehicle type");
-        }
+            self.add_type(ui, shown, field);
+        });
         ui.end_row();
-        for (vehicle_type, value) in &field.per_type {
+        for (vehicle_type, value) in &self.per_type(shown, field) {
             ui.add(Label::new(format!("    {vehicle_type}")).truncate());
-            self.value_field(ui, shown, field, Some((vehicle_type, value)), actions);
+            ui.horizontal(|ui| {
+                let of_type = Some((vehicle_type, value));
+                self.value_field(ui, shown, field, of_type, actions);
+                let remove = ui.add_enabled(*value != Common::None, Button::new("×").small());
+                let remove = remove.on_hover_text("Remove the value of this vehicle type");
+                if remove.clicked() {
+                    let target = property_target(shown, field, Some(vehicle_type));
+                    actions.extend(target.edit("").map(Action::Edit).ok());
+                }
+            });
             ui.end_row();
         }
+    }
+
+    /// The values per vehicle type, and empty ones of the types that the user added.
+    fn per_type(&self, shown: &Shown, field: &Field) -> Vec<(String, Common)> {
+        let added = self.added_types.iter().filter(|(of, name, vehicle_type)| {
+            let is_there = || {
+                field
+                    .per_type
+                    .iter()
+                    .any(|(known, _)| known == vehicle_type)
+            };
+            (*of, name) == (shown.of, &field.name) && !is_there()
+        });
+        let added = added.map(|(_, _, vehicle_type)| (vehicle_type.clone(), Common::None));
+        field.per_type.iter().cloned().chain(added).collect()
+    }
+
+    /// Offers a value of its own to each vehicle type that has none.
+    fn add_type(&mut self, ui: &mut Ui, shown: &Shown, field: &Field) {
+        let present = self.per_type(shown, field);
+        let is_missing = |name: &&String| !present.iter().any(|(known, _)| known == *name);
+        let missing: Vec<&String> = shown.types.iter().filter(is_missing).collect();
+        if missing.is_empty() {
+            return;
+        }
+        let menu = ui.menu_button("+", |ui| {
+            for vehicle_type in missing {
+                if ui.button(vehicle_type).clicked() {
+                    let added = (shown.of, field.name.clone(), vehicle_type.clone());
+                    self.added_types.push(added);
+                    ui.close();
+                }
+            }
+        });
+        let hint = "Add a value for one vehicle type";
+        menu.response.on_hover_text(hint);
     }
 
     fn value_field(
@@ -168,12 +225,7 @@ impl PropertiesPanel {
         per_type: Option<(&String, &Common)>,
         actions: &mut Vec<Action>,
     ) {
-        let target = shown.target(Subject::Property {
-            name: field.name.clone(),
-            kind: field.kind,
-            unit: field.unit,
-            vehicle_type: per_type.map(|(name, _)| name.clone()),
-        });
+        let target = property_target(shown, field, per_type.map(|(name, _)| name));
         let value = per_type.map_or(&field.shared, |(_, value)| value);
         match field.kind {
             FieldKind::Flag => pickers::choice(ui, target, value, &["true", "false"], actions),
@@ -220,7 +272,8 @@ impl PropertiesPanel {
         let typed = self.draft.as_ref().filter(|draft| draft.target == target);
         let mut text = typed.map_or_else(|| before.clone(), |draft| draft.text.clone());
         let field = TextEdit::singleline(&mut text).hint_text(hint);
-        let response = ui.add(field.desired_width(f32::INFINITY));
+        let width = (ui.available_width() - BUTTON_WIDTH).max(BUTTON_WIDTH);
+        let response = ui.add(field.desired_width(width));
         if response.has_focus() {
             self.draft = Some(Draft {
                 target,
@@ -231,4 +284,14 @@ impl PropertiesPanel {
             actions.extend(self.commit());
         }
     }
+}
+
+/// The field of a property, for all vehicle types or for one.
+fn property_target(shown: &Shown, field: &Field, vehicle_type: Option<&String>) -> Target {
+    shown.target(Subject::Property {
+        name: field.name.clone(),
+        kind: field.kind,
+        unit: field.unit,
+        vehicle_type: vehicle_type.cloned(),
+    })
 }

@@ -8,7 +8,8 @@ use guideway_scene::Table;
 
 use super::draft::{Subject, Target};
 use super::facts::Facts;
-use super::field::{Common, Field, fields, kind_of_property};
+use super::field::{Common, Field, MAX_COMPARED, fields, kind_of_property, types_of};
+use super::shape::PathShape;
 
 /// The selected elements of one table.
 pub(super) struct Shown {
@@ -20,6 +21,10 @@ pub(super) struct Shown {
     pub(super) facts: Facts,
     pub(super) fields: Vec<Field>,
     pub(super) levels: Vec<String>,
+    /// Vehicle types that the elements have entries for, by name.
+    pub(super) types: Vec<String>,
+    /// Lengths of paths; `None` for other elements.
+    pub(super) shape: Option<PathShape>,
 }
 
 impl Shown {
@@ -27,12 +32,20 @@ impl Shown {
     pub(super) fn new(layout: &Layout, of: Table, selected: &Elements, key: (usize, u64)) -> Self {
         let rows = selected.rows(of);
         let name = |level: &Level| level.name.clone().unwrap_or_else(|| level.id.clone());
+        let some: Vec<usize> = rows
+            .iter()
+            .take(MAX_COMPARED)
+            .map(|row| row as usize)
+            .collect();
+        let entries = of.entries(layout);
         Self {
             file: key.0,
             revision: key.1,
             of,
             facts: Facts::new(layout, of, rows),
             fields: fields(layout, of, rows),
+            types: entries.map_or_else(Vec::new, |entries| types_of(entries, &some)),
+            shape: (of == Table::Paths).then(|| PathShape::new(layout, rows)),
             rows: Arc::new(rows.clone()),
             levels: layout.levels.iter().map(name).collect(),
         }

@@ -6,7 +6,7 @@ use super::field::FieldKind;
 
 /// A value that a user entered.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum TypedValue {
+pub(in crate::panels) enum TypedValue {
     Flag(bool),
     Integer(i64),
     Number(f64),
@@ -15,7 +15,7 @@ pub(super) enum TypedValue {
 }
 
 impl TypedValue {
-    pub(super) fn as_value(&self) -> Value<'_> {
+    pub(in crate::panels) fn as_value(&self) -> Value<'_> {
         match self {
             Self::Flag(v) => Value::Bool(*v),
             Self::Integer(v) => Value::Int(*v),
@@ -29,7 +29,7 @@ impl TypedValue {
     ///
     /// # Errors
     /// The reason, which names the values that the field takes.
-    pub(super) fn parse(
+    pub(in crate::panels) fn parse(
         text: &str,
         kind: FieldKind,
         unit: Option<&str>,

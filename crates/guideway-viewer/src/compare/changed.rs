@@ -1,0 +1,166 @@
+//! The changes of one comparison, with rows of both documents.
+
+use guideway_document::{Element, Elements, Snapshot, text_format};
+use guideway_layout::{Change, CompareOptions, ElementChange, ElementKind, changes};
+use guideway_scene::Table;
+
+/// Positions and curves within a millimeter are the same: files round to that.
+const TOLERANCE_M: f64 = 1e-3;
+
+/// What happened to an element from the other file to the active one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ChangeKind {
+    Gone,
+    New,
+    Changed,
+}
+
+/// A line of the list of changes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ChangeLine {
+    pub(crate) kind: ChangeKind,
+    pub(crate) text: String,
+    /// The element in the active file, or in the other one if it is gone.
+    pub(crate) element: Element,
+}
+
+/// All changes from the other file to the active one.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Changed {
+    pub(crate) lines: Vec<ChangeLine>,
+    /// Changes of levels, vehicle types, blocks and zones.
+    pub(crate) groups: Vec<String>,
+    /// Elements of the other file that are gone.
+    pub(crate) gone: Elements,
+    /// Elements of the active file that are new.
+    pub(crate) new: Elements,
+    /// Elements of the active file that differ.
+    pub(crate) changed: Elements,
+}
+
+impl Changed {
+    /// Compares two snapshots; takes seconds for a million paths.
+    pub(super) fn of(other: &Snapshot, active: &Snapshot) -> Self {
+        let options = CompareOptions {
+            tolerance_m: TOLERANCE_M,
+            ..CompareOptions::default()
+        };
+        let found = changes(&other.to_layout(), &active.to_layout(), &options);
+        let rows = |snapshot: &Snapshot| Table::ALL.map(|of| snapshot.kept(of));
+        let (old_rows, new_rows) = (rows(other), rows(active));
+        let mut changed = Self::default();
+        for change in &found.elements {
+            let Some(of) = table(change.element) else {
+                continue;
+            };
+            let place = |rows: &[Vec<usize>; 3], row: u32| {
+                let rows = &rows[of as usize];
+                rows.get(row as usize).map_or(row, |&row| row as u32)
+            };
+            let (kind, row) = match (change.old_row, change.new_row) {
+                (Some(old), None) => (ChangeKind::Gone, place(&old_rows, old)),
+                (None, Some(new)) => (ChangeKind::New, place(&new_rows, new)),
+                (_, Some(new)) => (ChangeKind::Changed, place(&new_rows, new)),
+                (None, None) => continue,
+            };
+            let set = match kind {
+                ChangeKind::Gone => &mut changed.gone,
+                ChangeKind::New => &mut changed.new,
+                ChangeKind::Changed => &mut changed.changed,
+            };
+            set.rows_mut(of).insert(row);
+            changed.lines.push(ChangeLine {
+                kind,
+                text: text_of(of, change),
+                element: match of {
+                    Table::Paths => Element::Path(row),
+                    Table::Nodes => Element::Node(row),
+                    Table::Stations => Element::Station(row),
+                },
+            });
+        }
+        let groups = found.groups.iter();
+        changed.groups = groups
+            .map(|group| format!("{}: {}; {}", group.what, group.count, group.example))
+            .collect();
+        changed
+    }
+
+    /// Number of lines of a kind.
+    pub(crate) fn count(&self, kind: ChangeKind) -> usize {
+        self.lines.iter().filter(|line| line.kind == kind).count()
+    }
+}
+
+fn table(kind: ElementKind) -> Option<Table> {
+    match kind {
+        ElementKind::Path => Some(Table::Paths),
+        ElementKind::Node => Some(Table::Nodes),
+        ElementKind::Station => Some(Table::Stations),
+        ElementKind::Level | ElementKind::VehicleType | ElementKind::Block | ElementKind::Zone => {
+            None
+        }
+    }
+}
+
+/// `path a: maxSpeed 1 m/s, was 2 m/s`.
+fn text_of(of: Table, change: &ElementChange) -> String {
+    let what = of.element();
+    let id = &change.id;
+    let detail = match &change.change {
+        Change::Added => "is new".to_owned(),
+        Change::Removed => "is gone".to_owned(),
+        Change::Renamed { to } => format!("is called {to} now"),
+        Change::Moved { distance_m } => format!("moved by {}", text_format::length(*distance_m)),
+        Change::Reshaped { greatest_m } => {
+            format!(
+                "has another shape, up to {} away",
+                text_format::length(*greatest_m)
+            )
+        }
+        Change::Set {
+            property,
+            vehicle_type,
+            before,
+            after,
+        } => {
+            let of = vehicle_type.as_ref().map(|name| format!(" for {name}"));
+            let [before, after] = [before, after].map(|v| v.as_deref().unwrap_or("none"));
+            let of = of.unwrap_or_default();
+            format!("{property}{of} is {after}, was {before}")
+        }
+    };
+    format!("{what} {id}: {detail}")
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_document::Document;
+    use guideway_layout::Value;
+
+    use super::*;
+    use crate::tests::services::lanes;
+
+    #[test]
+    fn changes_have_rows_of_their_documents() {
+        let snapshot = |document: &Document| document.snapshot();
+        let mut old = Document::new(lanes(3).into(), &Default::default()).unwrap();
+        old.delete(&Elements::of_paths([0]), false).unwrap();
+        let mut layout = lanes(4);
+        layout.paths.attributes.set(1, "speed", Value::Float(9.0));
+        let mut new = Document::new(layout.into(), &Default::default()).unwrap();
+        new.delete(&Elements::of_paths([0, 2]), false).unwrap();
+        let changed = Changed::of(&snapshot(&old), &snapshot(&new));
+        let rows = |elements: &Elements| elements.paths.iter().collect::<Vec<_>>();
+        assert_eq!(rows(&changed.gone), [2]);
+        assert_eq!(rows(&changed.new), [3]);
+        assert_eq!(rows(&changed.changed), [1]);
+        let texts: Vec<&str> = changed.lines.iter().map(|line| &*line.text).collect();
+        assert!(
+            texts.contains(&"path lane 1: speed is 9, was 0.5"),
+            "{texts:?}"
+        );
+        assert!(texts.contains(&"path lane 2: is gone"));
+        assert_eq!(changed.count(ChangeKind::New), 3, "a path and two nodes");
+    }
+}

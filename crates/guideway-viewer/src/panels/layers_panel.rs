@@ -1,0 +1,238 @@
+//! The Layers tab: open files with their levels and kinds of elements, and the floor plan.
+
+use eframe::egui::collapsing_header::CollapsingState;
+use eframe::egui::{Align, Button, Color32, Id, Label, Layout, RichText, Slider, Ui};
+use guideway_document::{Document, text_format};
+use guideway_layout::{Level, shown_path};
+use guideway_scene::{Rgba, Table};
+
+use crate::action::Action;
+use crate::backdrop::FloorPlanLayer;
+use crate::display_settings::DisplaySettings;
+use crate::editing::EditTask;
+use crate::files::{Layer, LayerLook, OpenFiles};
+
+/// Shows the tab.
+pub(super) fn show(
+    ui: &mut Ui,
+    files: &mut OpenFiles,
+    floor_plan: &mut FloorPlanLayer,
+    settings: &DisplaySettings,
+    actions: &mut Vec<Action>,
+) {
+    let (active, count) = (files.active_index(), files.layers().len());
+    if count == 0 {
+        ui.label("No file is open");
+    }
+    for (index, layer) in files.layers_mut().iter_mut().enumerate() {
+        let id = Id::unique(("layer", layer.path()));
+        let row = LayerRow {
+            index,
+            count,
+            is_active: index == active,
+        };
+        let look = layer.look.clone();
+        CollapsingState::load_with_default_open(ui.ctx(), id, true)
+            .show_header(ui, |ui| row.show(ui, layer, actions))
+            .body(|ui| row.show_details(ui, layer, settings, actions));
+        if layer.look.color != look.color {
+            actions.push(Action::Recolor);
+        }
+    }
+    show_floor_plan(ui, floor_plan);
+}
+
+/// The place of a file in the list.
+struct LayerRow {
+    index: usize,
+    count: usize,
+    is_active: bool,
+}
+
+impl LayerRow {
+    /// Shows visibility, name, and the buttons that move and close the file.
+    fn show(&self, ui: &mut Ui, layer: &mut Layer, actions: &mut Vec<Action>) {
+        let checkbox = ui.checkbox(&mut layer.is_visible, "");
+        checkbox.on_hover_text("Show this file");
+        let right = Layout::right_to_left(Align::Center);
+        ui.with_layout(right, |ui| {
+            let close = ui.small_button("×");
+            if close.on_hover_text("Close this file").clicked() {
+                actions.push(Action::Close(self.index));
+            }
+            if self.count > 1 {
+                self.show_order(ui, actions);
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let mark = if layer.is_changed() { "*" } else { "" };
+                let name = format!("{}{mark}", layer.name());
+                let button = Button::selectable(self.is_active, name).truncate();
+                let path = shown_path(layer.path());
+                let hint = match self.is_active {
+                    true => format!("{path}\nThis file is edited, and drawn on top"),
+                    false => format!("{path}\nA click edits this file from now on"),
+                };
+                if ui.add(button).on_hover_text(hint).clicked() {
+                    actions.push(Action::Activate(self.index));
+                }
+            });
+        });
+    }
+
+    fn show_order(&self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        for (glyph, by, hint) in [
+            ("↓", 1, "Draw this file below the next one"),
+            ("↑", -1, "Draw this file above the one before"),
+        ] {
+            // The first of the list is on top, as in other programs.
+            let to = self.index.checked_add_signed(by);
+            let to = to.filter(|to| *to < self.count);
+            let button = ui.add_enabled(
+                to.is_some(),
+                Button::new(RichText::new(glyph).monospace()).small(),
+            );
+            if let (true, Some(to)) = (button.on_hover_text(hint).clicked(), to) {
+                actions.push(Action::MoveLayer {
+                    from: self.index,
+                    to,
+                });
+            }
+        }
+    }
+
+    fn show_details(
+        &self,
+        ui: &mut Ui,
+        layer: &mut Layer,
+        settings: &DisplaySettings,
+        actions: &mut Vec<Action>,
+    ) {
+        if let Some(document) = layer.document() {
+            ui.add(Label::new(RichText::new(contents(document)).small()).truncate());
+        }
+        let look = &mut layer.look;
+        ui.horizontal_wrapped(|ui| {
+            for (name, is_on) in kinds(look) {
+                ui.toggle_value(is_on, name);
+            }
+        });
+        ui.horizontal(|ui| {
+            let slider = Slider::new(&mut look.opacity, 0.0..=1.0).show_value(false);
+            ui.add(slider).on_hover_text("Opacity of the paths");
+            show_color(ui, look, settings);
+        });
+        let levels = layer.document().map_or(Vec::new(), levels);
+        if levels.len() > 1 {
+            self.show_levels(ui, layer, levels, actions);
+        }
+    }
+
+    /// Shows the levels, the shown one marked.
+    fn show_levels(
+        &self,
+        ui: &mut Ui,
+        layer: &mut Layer,
+        levels: Vec<(u32, String)>,
+        actions: &mut Vec<Action>,
+    ) {
+        let all = [(None, "All levels".to_owned())].into_iter();
+        let each = levels.into_iter().map(|(level, name)| (Some(level), name));
+        for (level, name) in all.chain(each) {
+            let is_shown = layer.level == level;
+            let button = Button::selectable(is_shown, name).truncate();
+            if ui.add(button).clicked() && !is_shown {
+                layer.level = level;
+                let show = EditTask::view_change(move |document| document.show_level(level));
+                actions.push(Action::Activate(self.index));
+                actions.push(Action::Edit(show));
+            }
+        }
+    }
+}
+
+/// Names and switches of the kinds of elements.
+fn kinds(look: &mut LayerLook) -> [(&'static str, &mut bool); 5] {
+    [
+        ("Paths", &mut look.has_paths),
+        ("Nodes", &mut look.has_nodes),
+        ("Stations", &mut look.has_stations),
+        ("Names", &mut look.has_names),
+        ("Arrows", &mut look.has_arrows),
+    ]
+}
+
+/// The color of a file, with a button that returns to that of the display settings.
+fn show_color(ui: &mut Ui, look: &mut LayerLook, settings: &DisplaySettings) {
+    let color = look.color.or(settings.scene_options().color);
+    let Rgba { r, g, b, .. } = color.unwrap_or(Rgba::BLACK);
+    let mut picked = Color32::from_rgb(r, g, b);
+    let button = ui.color_edit_button_srgba(&mut picked);
+    let button = button.on_hover_text("Color of the paths that have none of their own");
+    if button.changed() {
+        look.color = Some(Rgba::opaque(picked.r(), picked.g(), picked.b()));
+    }
+    if look.color.is_some() && ui.small_button("Default color").clicked() {
+        look.color = None;
+    }
+}
+
+/// `326 paths, 206 nodes, 67 stations; 2 paths hidden`.
+fn contents(document: &Document) -> String {
+    let (scene, layout) = (document.scene(), document.layout());
+    let places = |of: Table| {
+        let count = of.row_count(layout) - scene.removed(of).count();
+        text_format::counted(count as u64, of.element())
+    };
+    let paths = text_format::counted(scene.path_count() as u64, "path");
+    let (nodes, stations) = (places(Table::Nodes), places(Table::Stations));
+    let mut text = format!("{paths}, {nodes}, {stations}");
+    let refused = layout.refused.len();
+    for (count, what) in [(scene.hidden_count(), "hidden"), (refused, "not drawable")] {
+        if count > 0 {
+            let count = text_format::counted(count as u64, "path");
+            text += &format!("; {count} {what}");
+        }
+    }
+    text
+}
+
+fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
+    if floor_plan.text().is_empty() {
+        return;
+    }
+    ui.separator();
+    let label = match floor_plan.is_reading() {
+        true => "floor plan (loading)",
+        false => "floor plan",
+    };
+    ui.checkbox(&mut floor_plan.is_visible, label);
+    let text = floor_plan.text();
+    let plan = Label::new(RichText::new(text).small());
+    ui.add(plan.truncate()).on_hover_text(text);
+    if let Some(error) = floor_plan.error() {
+        ui.colored_label(ui.visuals().error_fg_color, error);
+    }
+}
+
+/// Row and name of every level.
+fn levels(document: &Document) -> Vec<(u32, String)> {
+    let name = |level: &Level| level.name.clone().unwrap_or_else(|| level.id.clone());
+    let levels = document.layout().levels.iter().zip(0..);
+    levels.map(|(level, row)| (row, name(level))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::services::lanes;
+
+    #[test]
+    fn contents_count_what_is_there() {
+        let mut document = Document::new(lanes(3).into(), &Default::default()).unwrap();
+        assert_eq!(contents(&document), "3 paths, 6 nodes, 0 stations");
+        document.select([1].into_iter().collect(), Default::default());
+        document.hide_selection();
+        let text = contents(&document);
+        assert_eq!(text, "3 paths, 6 nodes, 0 stations; 1 path hidden");
+    }
+}

@@ -1,0 +1,56 @@
+//! Lengths and bends of the selected paths.
+
+use guideway_document::measure::{Bend, bends};
+use guideway_document::{PathSet, text_format};
+use guideway_layout::Layout;
+
+use crate::canvas::shape_text;
+
+/// Most paths whose lengths are added up: more would delay the click that selects them.
+const MAX_MEASURED: u64 = 20_000;
+
+/// Lengths and bends of paths.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct PathShape {
+    /// Length and tightest bend of one path, or the sum of the lengths of several.
+    pub(super) text: String,
+    /// Bends of the only path.
+    pub(super) bends: Vec<Bend>,
+}
+
+impl PathShape {
+    /// Measures paths.
+    pub(super) fn new(layout: &Layout, rows: &PathSet) -> Self {
+        let path = |row: u32| layout.paths.get(row as usize);
+        if let (1, Some(row)) = (rows.len(), rows.min()) {
+            let bends = bends(path(row));
+            let text = shape_text(path(row), &bends);
+            return Self { text, bends };
+        }
+        let text = if rows.len() > MAX_MEASURED {
+            let most = text_format::count(MAX_MEASURED);
+            format!("select at most {most} paths to see the sum of their lengths")
+        } else {
+            let sum_m: f64 = rows.iter().map(|row| path(row).length_m()).sum();
+            format!("{} long in total", text_format::length(sum_m))
+        };
+        let bends = Vec::new();
+        Self { text, bends }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::services::lanes;
+
+    #[test]
+    fn lengths_of_several_paths_are_added_up() {
+        let layout = lanes(3);
+        let one = PathShape::new(&layout, &[1].into_iter().collect());
+        assert_eq!(one.text, "10 m long, straight");
+        assert!(!one.bends.is_empty());
+        let all = PathShape::new(&layout, &(0..3).collect());
+        assert_eq!((&*all.text, all.bends.len()), ("30 m long in total", 0));
+    }
+}

@@ -1,0 +1,140 @@
+//! The side panel: tabs with fixed places, resized, hidden and steady.
+
+use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
+use egui_kittest::kittest::Queryable;
+use guideway_document::Document;
+use guideway_layout::Value;
+
+use super::services::lanes;
+use super::test_window::TestWindow;
+use crate::panels::SideTab;
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+
+/// Left edge of the canvas' right neighbor.
+fn canvas_width(window: &mut TestWindow) -> f32 {
+    window.app().canvas.screen().rect.width()
+}
+
+fn place_of(window: &TestWindow, label: &str) -> Pos2 {
+    window.harness.get_by_label(label).rect().min
+}
+
+#[test]
+fn panel_keeps_still_while_pointer_and_selection_change() {
+    let mut layout = lanes(5);
+    let long = "a name that is far longer than the side panel is wide, and then some more of it";
+    layout.paths.set_ids(&[(2, long)]);
+    let mut window = TestWindow::showing(layout);
+    let before = (canvas_width(&mut window), place_of(&window, "Move"));
+    for y in [0.0, 4.0, 6.0] {
+        let at = window.at(5.0, y);
+        window.harness.event(Event::PointerMoved(at));
+        window.harness.run_steps(3);
+        let hovered = (canvas_width(&mut window), place_of(&window, "Move"));
+        assert_eq!(hovered, before, "hover");
+        window.click(at);
+        window.harness.run_steps(3);
+        let selected = (canvas_width(&mut window), place_of(&window, "Move"));
+        assert_eq!(selected, before, "selection");
+    }
+    for tab in SideTab::ALL {
+        window.app().side.open(tab);
+        window.harness.run_steps(3);
+        assert_eq!(canvas_width(&mut window), before.0, "{}", tab.name());
+    }
+}
+
+#[test]
+fn fields_stay_while_an_edit_is_in_progress() {
+    let mut window = TestWindow::showing(lanes(3));
+    let at = window.at(5.0, 2.0);
+    window.click(at);
+    window.harness.run_steps(2);
+    let before = place_of(&window, "direction");
+    let (finish, rest) = std::sync::mpsc::channel::<()>();
+    window.app().edit_wait = std::time::Duration::ZERO;
+    window.change(move |_: &mut Document| {
+        let _ = rest.recv();
+    });
+    window.harness.run_steps(3);
+    assert!(window.app().document().is_none(), "the edit has it");
+    assert_eq!(place_of(&window, "direction"), before);
+    drop(finish);
+    window.wait(|app| app.document().is_some());
+}
+
+#[test]
+fn panel_is_hidden_by_its_key_and_in_a_small_window() {
+    let mut window = TestWindow::showing(lanes(3));
+    let with = canvas_width(&mut window);
+    window.key(NONE, Key::F9);
+    assert!(canvas_width(&mut window) > with + 100.0);
+    // A search shows the panel again.
+    window.key(CTRL, Key::F);
+    window.harness.run_steps(3);
+    assert!(window.harness.query_by_label("Query").is_some());
+    assert!((canvas_width(&mut window) - with).abs() < 1.0);
+    let mut small = TestWindow::showing(lanes(3));
+    small.harness.set_size(Vec2::new(340.0, 260.0));
+    small.harness.run_steps(3);
+    // The harness has margins.
+    assert!(canvas_width(&mut small) > 310.0);
+    small.key(NONE, Key::F9);
+    small.harness.run_steps(2);
+    assert!(canvas_width(&mut small) >= 100.0);
+}
+
+#[test]
+fn edge_of_the_panel_is_dragged() {
+    let mut window = TestWindow::showing(lanes(3));
+    let rect = window.app().canvas.screen().rect;
+    let from = Pos2::new(rect.right() + 1.0, rect.center().y);
+    window.drag(from, from - Vec2::new(100.0, 0.0));
+    window.harness.run_steps(3);
+    let width = canvas_width(&mut window);
+    assert!((rect.width() - width - 100.0).abs() < 10.0, "{width}");
+}
+
+#[test]
+fn value_of_one_vehicle_type_is_added_and_removed() {
+    let mut layout = lanes(2);
+    layout.paths.vehicle_types_mut().set(0, &["fork", "tug"]);
+    let mut window = TestWindow::showing(layout);
+    let at = window.at(5.0, 0.0);
+    window.click(at);
+    window.harness.run_steps(2);
+    let own = |window: &mut TestWindow| {
+        let types = window.document().layout().paths.vehicle_types();
+        let entry = types.entry_for(0, "tug").unwrap();
+        match types.attributes.value(entry, "speed") {
+            Some(Value::Float(speed)) => Some(speed),
+            _ => None,
+        }
+    };
+    assert_eq!(own(&mut window), None);
+    window.harness.get_by_label("+").click();
+    window.harness.run_steps(3);
+    window.harness.get_by_label("tug").click();
+    window.harness.run_steps(3);
+    let empty = egui_kittest::kittest::By::new()
+        .role(eframe::egui::accesskit::Role::TextInput)
+        .value("");
+    let mut fields: Vec<_> = window.harness.get_all(empty).collect();
+    fields.pop().expect("the field of the type").focus();
+    window.harness.run_steps(2);
+    window.harness.event(Event::Text("0.75".into()));
+    window.harness.run_steps(2);
+    window.key(NONE, Key::Enter);
+    window.harness.run_steps(3);
+    assert_eq!(own(&mut window), Some(0.75));
+    // The forklift has taken over the value that all had.
+    let removals: Vec<_> = window.harness.get_all_by_label("×").collect();
+    removals[removals.len() - 1].click();
+    drop(removals);
+    window.harness.run_steps(3);
+    assert_eq!(own(&mut window), None);
+    window.key(CTRL, Key::Z);
+    assert_eq!(own(&mut window), Some(0.75));
+}
