@@ -27,11 +27,15 @@ use self::difference::Differences;
 use self::row_pairs::RowPairs;
 use crate::Layout;
 
+/// Largest distance at which an element is at the same place, in meters: the coarsest step of the
+/// formats.
+const SAME_PLACE_M: f64 = 1e-3;
+
 /// Compares two layouts. Returns what differs, by kind, in the order of the tables; nothing if they
 /// mean the same.
 ///
 /// Rows are matched by identifier, in order among equal ones; where no identifier of a table is
-/// kept, by their order. Provenance, findings, places in the source text and the order of columns
+/// kept but most places are, by their order. Provenance, findings, places in the source text and the order of columns
 /// do not count.
 ///
 /// ```
@@ -52,12 +56,17 @@ pub fn differences(a: &Layout, b: &Layout, options: &CompareOptions) -> Vec<Diff
         b.nodes.len(),
         |row| a.nodes.id(row),
         |row| b.nodes.id(row),
+        |row| a.nodes.position_m(row).distance(b.nodes.position_m(row)) <= SAME_PLACE_M,
     );
     let stations = RowPairs::of(
         a.stations.len(),
         b.stations.len(),
         |row| a.stations.id(row),
         |row| b.stations.id(row),
+        |row| match (a.stations.position_m(row), b.stations.position_m(row)) {
+            (Some(p), Some(q)) => p.distance(q) <= SAME_PLACE_M,
+            _ => true,
+        },
     );
     let rows = |layout: &Layout| layout.paths.len();
     let path_pairs = RowPairs::of(
@@ -65,6 +74,7 @@ pub fn differences(a: &Layout, b: &Layout, options: &CompareOptions) -> Vec<Diff
         rows(b),
         |row| a.paths.id(row as usize),
         |row| b.paths.id(row as usize),
+        |row| paths::keeps_place([a, b], row as usize, SAME_PLACE_M),
     );
     paths::compare([a, b], &path_pairs, &nodes, options, &mut found);
     places::compare_nodes([a, b], &nodes, options, &mut found);

@@ -14,16 +14,19 @@ pub(super) struct RowPairs {
 }
 
 impl RowPairs {
-    /// Matches rows by identifier, in order among equal ones. If no identifier matches and the
-    /// tables have the same length, matches them by order.
+    /// Matches rows by identifier, in order among equal ones. If no identifier matches, the tables
+    /// have the same length, and most rows keep their place, matches them by order.
     pub(super) fn of<'a>(
         rows_a: usize,
         rows_b: usize,
         id_a: impl Fn(u32) -> &'a str,
         id_b: impl Fn(u32) -> &'a str,
+        keeps_place: impl Fn(u32) -> bool,
     ) -> Self {
         let by_id = Self::by_id(rows_a, rows_b, id_a, id_b);
-        if rows_a > 0 && rows_a == rows_b && by_id.added.len() == rows_b {
+        let is_renamed = rows_a > 0 && rows_a == rows_b && by_id.added.len() == rows_b;
+        let keep_place = || (0..rows_a as u32).filter(|&row| keeps_place(row)).count();
+        if is_renamed && 2 * keep_place() >= rows_a {
             return Self {
                 partners: (0..rows_a as u32).map(Some).collect(),
                 added: Vec::new(),
@@ -118,7 +121,12 @@ mod tests {
     use super::*;
 
     fn pairs(a: &[&str], b: &[&str]) -> RowPairs {
-        RowPairs::of(a.len(), b.len(), |r| a[r as usize], |r| b[r as usize])
+        at_places(a, b, &|_| true)
+    }
+
+    fn at_places(a: &[&str], b: &[&str], keeps_place: &dyn Fn(u32) -> bool) -> RowPairs {
+        let ids = [a, b].map(|ids| move |r: u32| ids[r as usize]);
+        RowPairs::of(a.len(), b.len(), ids[0], ids[1], keeps_place)
     }
 
     #[test]
@@ -137,6 +145,10 @@ mod tests {
         assert!(found.pairs().eq([(0, 0), (1, 1)]));
         assert!(!pairs(&["a", "b"], &["1", "b"]).is_by_order());
         assert!(!pairs(&["a"], &["1", "2"]).is_by_order());
+        let other = at_places(&["a", "b", "c"], &["1", "2", "3"], &|row| row == 0);
+        assert!(!other.is_by_order() && other.removed().count() == 3);
+        let moved = at_places(&["a", "b", "c"], &["1", "2", "3"], &|row| row != 0);
+        assert!(moved.is_by_order());
     }
 
     #[test]
