@@ -2,24 +2,29 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | match | identifiers and places of two tables | pairs of rows, rows without a partner | `row_pairs`, `element_pairs` |
+//! | match | identifiers, places and neighbors of two tables | pairs of rows, rows without a partner | `row_pairs`, `element_pairs`, `moved_pairs` |
 //! | compare curves | two paths | greatest distance | `curve_distance` |
-//! | compare columns | two tables, pairs of rows | differing cells by column | `columns` |
+//! | compare columns | two tables, pairs of rows | differing cells by column | `columns`, `cells` |
 //! | list changes | two layouts | [`Change`]s element by element | `changes`, `change` |
+//! | write changes | a change | its values as text | `change_values` |
 //! | compare tables | two layouts | [`Difference`]s | `paths`, `places`, `groups`, `difference` |
 
+mod cells;
 mod change;
+mod change_values;
 mod changes;
 mod columns;
 mod curve_distance;
 mod difference;
 mod element_pairs;
 mod groups;
+mod moved_pairs;
 mod paths;
 mod places;
 mod row_pairs;
 
-pub use self::change::{Change, Changes, ElementChange};
+pub use self::change::{Change, ChangedValue, Changes, ElementChange};
+pub use self::change_values::ChangedTexts;
 pub use self::changes::changes;
 pub use self::difference::{CompareOptions, Difference};
 
@@ -35,8 +40,8 @@ const SAME_PLACE_M: f64 = 1e-3;
 /// mean the same.
 ///
 /// Rows are matched by identifier, in order among equal ones; where no identifier of a table is
-/// kept but most places are, by their order. Provenance, findings, places in the source text and the order of columns
-/// do not count.
+/// kept but most places are, by their order. Provenance, findings, places in the source text and
+/// the order of columns do not count.
 ///
 /// ```
 /// use guideway_layout::{CompareOptions, Layout, differences};

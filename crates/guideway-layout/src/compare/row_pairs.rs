@@ -87,6 +87,36 @@ impl RowPairs {
         self.added.retain(|row| !matched.contains(row));
     }
 
+    /// Matches rows without a partner that are each other's only candidates.
+    pub(super) fn match_candidates(&mut self, mut candidates: Vec<(u32, u32)>) {
+        candidates.sort_unstable();
+        candidates.dedup();
+        let mut counts: [HashMap<u32, u32>; 2] = Default::default();
+        for &(a, b) in &candidates {
+            *counts[0].entry(a).or_default() += 1;
+            *counts[1].entry(b).or_default() += 1;
+        }
+        candidates.retain(|(a, b)| counts[0][a] == 1 && counts[1][b] == 1);
+        for &(a, b) in &candidates {
+            self.partners[a as usize] = Some(b);
+        }
+        let matched: HashSet<u32> = candidates.into_iter().map(|(_, b)| b).collect();
+        self.added.retain(|row| !matched.contains(row));
+    }
+
+    /// Returns `true` if rows of both tables have no partner.
+    pub(super) fn has_rest(&self) -> bool {
+        !self.added.is_empty() && self.removed().next().is_some()
+    }
+
+    /// Row in the first table of each of the `rows` rows of the second one.
+    pub(super) fn inverse(&self, rows: usize) -> Vec<Option<u32>> {
+        let mut inverse = vec![None; rows];
+        self.pairs()
+            .for_each(|(a, b)| inverse[b as usize] = Some(a));
+        inverse
+    }
+
     /// Pairs of rows, in the order of the first table.
     pub(super) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
         let rows = self.partners.iter().enumerate();
@@ -161,5 +191,21 @@ mod tests {
         assert!(found.pairs().eq([(0, 1), (2, 0)]));
         assert!(found.removed().eq([1, 3]));
         assert_eq!(found.added(), [2, 3]);
+        // Row 3 has two candidates, row 1 one that has no other.
+        assert!(found.has_rest());
+        found.match_candidates(vec![(1, 2), (1, 2)]);
+        assert_eq!(found.inverse(4), [Some(2), Some(0), Some(1), None]);
+        found.match_candidates(vec![(3, 3)]);
+        assert!(!found.has_rest() && found.partner(3) == Some(3));
+    }
+
+    #[test]
+    fn several_candidates_match_none() {
+        let ids = |_| "";
+        let mut found = RowPairs::by_id(2, 0, ids, ids);
+        found.added = vec![0, 1];
+        found.match_candidates(vec![(0, 0), (1, 0)]);
+        found.match_candidates(vec![(0, 0), (0, 1)]);
+        assert_eq!((found.removed().count(), found.added()), (2, &[0, 1][..]));
     }
 }
