@@ -67,6 +67,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-spline",
             "guideway-layout",
             "guideway-datasets",
+            "guideway-network",
             "guideway-scene",
         ],
     ),
