@@ -1,5 +1,5 @@
-//! Lazy arrays: parses a long array in batches on all cores, so that memory holds two batches beside
-//! the text.
+//! Lazy arrays: parses a long array in batches on all cores, so that memory holds two batches
+//! beside the text.
 
 use std::cell::RefCell;
 use std::marker::PhantomData;

@@ -22,7 +22,7 @@ const REAL: [&str; 3] = ["layouts", "cases", "conformance/real"];
 const ATTACKS: &str = "hostile";
 
 /// Paths above which a real file is left out: the comparison of curves would take minutes.
-const MAX_PATHS: usize = 2_000;
+const MAX_PATHS: usize = 20_000;
 
 /// Environment variable with the seeds of random layouts: a number of them, or `FIRST..END`.
 const SEEDS_VARIABLE: &str = "GUIDEWAY_RANDOM_LAYOUTS";
