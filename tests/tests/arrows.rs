@@ -68,6 +68,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-spline",
             "guideway-layout",
             "guideway-datasets",
+            "guideway-network",
             "guideway-scene",
         ],
     ),

@@ -13,6 +13,7 @@
 //! | [`runner`] | prepares one method and times its frames |
 //! | [`interleaved`] | draws the frames of several runners in turns |
 //! | `comparison` | measures a whole contest |
+//! | `tools`, `plan`, `peak_memory` | measures network, check, route and diff on one plan |
 //! | `measured`, `statistics`, `machine` | the report: results, summaries, the computer |
 //! | [`mod@format`] | numbers for tables and sentences |
 
@@ -24,10 +25,13 @@ pub mod interleaved;
 mod machine;
 mod measured;
 mod motion;
+mod peak_memory;
+mod plan;
 pub mod runner;
 mod start;
 mod statistics;
 mod style_preset;
+mod tools;
 mod zoomed_view;
 
 pub use comparison::{Comparison, Contest, Contestant, SceneFacts, ViewFacts, compare};
@@ -41,4 +45,5 @@ pub use motion::Motion;
 pub use start::{Start, StartError};
 pub use statistics::Summary;
 pub use style_preset::StylePreset;
+pub use tools::{ToolError, ToolRow, measure_tools};
 pub use zoomed_view::zoomed_view;

@@ -80,7 +80,8 @@ pub use check::{
 };
 pub use code::{Code, Severity};
 pub use compare::{
-    Change, Changes, CompareOptions, Difference, ElementChange, changes, differences,
+    Change, ChangedTexts, ChangedValue, Changes, CompareOptions, Difference, ElementChange,
+    changes, differences,
 };
 pub use diagnostic::{Diagnostic, Diagnostics, FindingKind};
 pub use geo_origin::GeoOrigin;

@@ -1,5 +1,6 @@
 //! Tests of [`guideway_layout::changes`]: each kind of change is listed once, with its element.
 
+use guideway_growth::exponent_of_time;
 use guideway_layout::{
     Change, CompareOptions, Direction, ElementKind, Layout, Level, NewPath, Quantity, Value,
     changes,
@@ -37,23 +38,42 @@ fn sample() -> Layout {
     layout
 }
 
-/// The changes after an edit, as kind, identifier and change.
-fn after(edit: impl FnOnce(&mut Layout)) -> Vec<(ElementKind, String, Change)> {
-    let old = sample();
-    let mut new = old.clone();
-    edit(&mut new);
-    let found = changes(&old, &new, &CompareOptions::default());
-    let elements = found.elements.into_iter();
-    elements.map(|of| (of.element, of.id, of.change)).collect()
+/// A change with its values.
+#[derive(Clone, Debug, PartialEq)]
+enum Found {
+    Of(Change),
+    Renamed(String),
+    Set(String, Option<String>, [Option<String>; 2]),
 }
 
-fn set(property: &str, of: Option<&str>, before: Option<&str>, after: Option<&str>) -> Change {
-    Change::Set {
-        property: property.into(),
-        vehicle_type: of.map(Into::into),
-        before: before.map(Into::into),
-        after: after.map(Into::into),
-    }
+/// The changes after an edit, as kind, identifier and change.
+fn after(edit: impl FnOnce(&mut Layout)) -> Vec<(ElementKind, String, Found)> {
+    between(&sample(), edit)
+}
+
+fn between(old: &Layout, edit: impl FnOnce(&mut Layout)) -> Vec<(ElementKind, String, Found)> {
+    let mut new = old.clone();
+    edit(&mut new);
+    let found = changes(old, &new, &CompareOptions::default());
+    let with_values = found.elements.iter().map(|of| {
+        let own = |text: &str| text.to_owned();
+        let change = match (of.change, found.values(of)) {
+            (Change::Renamed, _) => Found::Renamed(found.new_id(of).map(own).unwrap_or_default()),
+            (_, Some(values)) => Found::Set(
+                own(values.property),
+                values.vehicle_type.map(own),
+                [values.before, values.after],
+            ),
+            (change, None) => Found::Of(change),
+        };
+        (of.element, own(found.id(of)), change)
+    });
+    with_values.collect()
+}
+
+fn set(property: &str, of: Option<&str>, before: Option<&str>, after: Option<&str>) -> Found {
+    let values = [before, after].map(|value| value.map(Into::into));
+    Found::Set(property.into(), of.map(Into::into), values)
 }
 
 #[test]
@@ -65,7 +85,7 @@ fn equal_layouts_have_no_changes() {
 #[test]
 fn lists_each_kind_of_change() {
     let path = |id: &str, change| vec![(ElementKind::Path, id.to_owned(), change)];
-    let moved = Change::Moved { distance_m: 2.0 };
+    let moved = Found::Of(Change::Moved { distance_m: 2.0 });
     assert_eq!(
         after(|l| l
             .paths
@@ -113,7 +133,10 @@ fn lists_each_kind_of_change() {
         after(|l| l.paths.vehicle_types_mut().set(1, &["tug"])),
         path("e2", set("vehicle types", None, Some("all"), Some("tug")))
     );
-    assert_eq!(after(|l| l.retain_paths(&[0])), path("e2", Change::Removed));
+    assert_eq!(
+        after(|l| l.retain_paths(&[0])),
+        path("e2", Found::Of(Change::Removed))
+    );
 }
 
 #[test]
@@ -124,12 +147,12 @@ fn reshaped_paths_state_the_greatest_distance() {
     });
     assert_eq!(found.len(), 1, "{found:?}");
     // A line moved sideways keeps its shape.
-    assert_eq!(found[0].2, Change::Moved { distance_m: 2.5 });
+    assert_eq!(found[0].2, Found::Of(Change::Moved { distance_m: 2.5 }));
     let found = after(|l| {
         let by = Affine::rotation(0.3, Point::new(0.0, 5.0));
         l.paths.transform([1], by);
     });
-    let Change::Reshaped { greatest_m } = found[0].2 else {
+    let Found::Of(Change::Reshaped { greatest_m }) = found[0].2 else {
         panic!("{found:?}");
     };
     assert!(
@@ -150,9 +173,129 @@ fn renamed_elements_are_matched_by_place() {
         (ElementKind::Path, "e2", "lane"),
         (ElementKind::Station, "dock", "gate"),
     ];
-    let expected = expected.map(|(kind, id, to)| {
-        let change = Change::Renamed { to: to.to_owned() };
-        (kind, id.to_owned(), change)
-    });
+    let expected =
+        expected.map(|(kind, id, to)| (kind, id.to_owned(), Found::Renamed(to.to_owned())));
     assert_eq!(found, expected);
+}
+
+/// Nodes along a line, 10 m apart, with a path from each to the next one, and a station at each.
+fn chain(count: usize) -> Layout {
+    let mut layout = Layout::default();
+    for i in 0..count {
+        let at = Point::new(10.0 * i as f64, 0.0);
+        let node = layout.nodes.push(&format!("n{i}"), at, None);
+        let station = Some(Point::new(at.x, 3.0));
+        layout
+            .stations
+            .push(&format!("s{i}"), station, vec![node], None);
+        let Some(before) = node.checked_sub(1) else {
+            continue;
+        };
+        let mut runs = Runs::default();
+        runs.push_line(layout.nodes.position_m(before), at);
+        layout.paths.push(&NewPath {
+            id: &format!("p{i}"),
+            runs: &runs,
+            start_node: Some(before),
+            end_node: Some(node),
+            ..NewPath::default()
+        });
+    }
+    layout
+}
+
+fn is_named(found: &[(ElementKind, String, Found)], id: &str, to: &str) -> bool {
+    let renamed = Found::Renamed(to.to_owned());
+    let has = |change: &dyn Fn(&Found) -> bool| {
+        found.iter().any(|(_, of, found)| of == id && change(found))
+    };
+    has(&|found| *found == renamed) && has(&|found| matches!(found, Found::Of(_)))
+}
+
+#[test]
+fn elements_that_were_renamed_and_moved_are_matched_by_what_is_around_them() {
+    let old = chain(5);
+    let far = Point::new(22.0, 40.0);
+    let gone = |found: &[(ElementKind, String, Found)]| {
+        let is_gone = |found: &Found| matches!(found, Found::Of(Change::Removed | Change::Added));
+        found.iter().filter(|(.., found)| is_gone(found)).count()
+    };
+    // The paths keep their names.
+    let found = between(&old, |l| {
+        l.nodes.set_ids(&[(2, "middle")]);
+        l.nodes.set_position_m(2, far);
+    });
+    assert!(
+        is_named(&found, "n2", "middle") && gone(&found) == 0,
+        "{found:?}"
+    );
+    // So do its neighbors only; then the paths between them follow, and the station of the node.
+    let found = between(&old, |l| {
+        l.nodes.set_ids(&[(2, "middle")]);
+        l.nodes.set_position_m(2, far);
+        l.paths.set_ids(&[(1, "in"), (2, "out")]);
+        for path in [1, 2] {
+            l.paths
+                .transform([path], Affine::translation(Point::new(0.0, 5.0)));
+        }
+        l.stations.set_ids(&[(2, "gate")]);
+        l.stations.set_position_m(2, Some(far));
+    });
+    for (id, to) in [
+        ("n2", "middle"),
+        ("p2", "in"),
+        ("p3", "out"),
+        ("s2", "gate"),
+    ] {
+        assert!(is_named(&found, id, to), "{id}: {found:?}");
+    }
+    assert_eq!(gone(&found), 0, "{found:?}");
+    // A node at the end has one neighbor, which may have others: within a meter it is the same.
+    for (x, count) in [(0.5, 0), (2.0, 2)] {
+        let found = between(&old, |l| {
+            l.nodes.set_ids(&[(0, "first")]);
+            l.nodes.set_position_m(0, Point::new(x, 0.0));
+            l.paths.set_nodes(0, None, Some(1));
+        });
+        assert_eq!(gone(&found), count, "{x} m: {found:?}");
+    }
+}
+
+#[test]
+fn several_candidates_are_new_elements() {
+    let mut old = Layout::default();
+    old.nodes.push("a", Point::new(0.0, 0.0), None);
+    let found = between(&old, |l| {
+        *l = Layout::default();
+        l.nodes.push("b", Point::new(0.3, 0.0), None);
+        l.nodes.push("c", Point::new(0.0, 0.3), None);
+    });
+    let changes: Vec<_> = found.into_iter().map(|(.., change)| change).collect();
+    let expected = [Change::Removed, Change::Added, Change::Added];
+    assert_eq!(changes, expected.map(Found::Of));
+}
+
+#[test]
+fn comparison_grows_almost_linearly() {
+    let pair = |count: usize| {
+        let (old, mut new) = (chain(count), chain(count));
+        let names: Vec<String> = (0..count).map(|i| format!("x{i}")).collect();
+        let renamed = names.iter().enumerate().skip(count / 2);
+        let renamed: Vec<(u32, &str)> = renamed.map(|(i, id)| (i as u32, id.as_str())).collect();
+        new.nodes.set_ids(&renamed);
+        for row in 0..count as u32 {
+            let at = new.nodes.position_m(row) + Point::new(0.2, 0.1);
+            new.nodes.set_position_m(row, at);
+        }
+        for row in 0..count - 1 {
+            let attributes = &mut new.paths.attributes;
+            attributes.set_quantity(row, "maxSpeed", 1.5, Quantity::Speed);
+        }
+        (old, new)
+    };
+    let slope = exponent_of_time([2_000, 8_000, 32_000], pair, |(old, new)| {
+        let found = changes(old, new, &CompareOptions::default());
+        assert!(found.elements.len() > 2 * old.paths.len());
+    });
+    assert!(slope < 1.3, "exponent {slope:.2}");
 }

@@ -145,3 +145,27 @@ fn matches_renamed_rows_by_order_if_no_identifier_is_kept() {
     let one_of_each = [("paths".to_owned(), 1), ("new paths".to_owned(), 1)];
     assert_eq!(kinds(&before, &after)[..2], one_of_each);
 }
+
+#[test]
+fn renamed_rows_elsewhere_are_other_elements() {
+    let mut before = Layout::default();
+    let mut after = Layout::default();
+    for (layout, ids, x) in [
+        (&mut before, ["a", "b"], 0.0),
+        (&mut after, ["1", "2"], 50.0),
+    ] {
+        for (i, id) in ids.into_iter().enumerate() {
+            let at = Point::new(x + 10.0 * i as f64, 0.0);
+            layout.nodes.push(id, at, None);
+            layout.stations.push(id, Some(at), Vec::new(), None);
+            layout.paths.push(&NewPath {
+                id,
+                runs: &line((at.x, 0.0), (at.x + 5.0, 0.0)),
+                ..NewPath::default()
+            });
+        }
+    }
+    let tables = ["paths", "nodes", "stations"];
+    let expected = tables.map(|of| [(of.to_owned(), 2), (format!("new {of}"), 2)]);
+    assert_eq!(kinds(&before, &after), expected.concat());
+}

@@ -3,7 +3,9 @@
 //! Curves without weights up to degree 3 convert exactly. For all others the module fits cubics and
 //! bounds their error.
 
-use crate::{MAX_DEGREE, Nurbs, NurbsError, Point, Runs, knots};
+use crate::exact::push_exact;
+use crate::span::{Coefficient, Coefficients, bezier_of_span};
+use crate::{Nurbs, NurbsError, Point, Runs, knots};
 
 /// Most halvings of one span of a curve on the way to the tolerance.
 ///
@@ -36,20 +38,21 @@ impl Conversion {
 /// Appends a NURBS curve over its whole domain.
 ///
 /// Without weights (or with equal weights), degrees 1 to 3 are exact. Spans of a cubic between
-/// uniform knots keep their control points and share one run. The function approximates every other
-/// curve span by span, with as many cubics as `tolerance_m` (meters) requires, within
+/// uniform knots share one run, which has as many control points as the curve. So do the points of
+/// a straight line of degree 1, if they are straight to a micrometer. The function approximates
+/// every other curve span by span, with as many cubics as `tolerance_m` (meters) requires, within
 /// [`MAX_HALVINGS`]. It raises a tolerance below the rounding error of the span to that error.
 ///
 /// Spans of zero width yield nothing. At an inner knot of multiplicity above the degree the curve
 /// breaks, and the runs on the two sides do not meet.
 pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Conversion {
     if curve.degree() <= 3 && !curve.is_rational() {
-        let mut pieces = 0;
-        for span in curve.spans() {
-            pieces += 1;
-            push_exact(curve, span, out);
-        }
-        return Conversion::exact(pieces);
+        let error_bound_m = push_exact(curve, out);
+        return Conversion {
+            exact: error_bound_m == 0.0,
+            error_bound_m,
+            pieces: curve.spans().count(),
+        };
     }
     let mut fit = Fit {
         degree: curve.degree(),
@@ -88,97 +91,8 @@ pub fn bezier_to_runs(
 
 /// Appends the lines of a polyline, exactly. Fewer than two points append nothing.
 pub fn polyline_to_runs(points: &[Point<f64>], out: &mut Runs) -> Conversion {
-    for ends in points.windows(2) {
-        let step = ends[1] - ends[0];
-        out.push_segment(&[ends[0] - step, ends[0], ends[1], ends[1] + step]);
-    }
+    out.push_polyline(points);
     Conversion::exact(points.len().saturating_sub(1))
-}
-
-fn push_exact(curve: &Nurbs, span: usize, out: &mut Runs) {
-    let degree = curve.degree();
-    let first = span - degree;
-    if let (3, Some(own)) = (degree, curve.points()[first..].first_chunk())
-        && is_uniform(&curve.knots()[first + 1..=span + 3])
-    {
-        out.push_segment(own);
-        return;
-    }
-    let b = bezier_of_span::<4>(curve, span, Point::new(0.0, 0.0)).map(|c| c.point);
-    match degree {
-        1 => out.push_line(b[0], b[1]),
-        2 => out.push_quadratic(&[b[0], b[1], b[2]]),
-        _ => out.push_bezier(&[b[0], b[1], b[2], b[3]]),
-    }
-}
-
-/// Returns `true` if the knots of one span are uniform, up to their rounding error.
-fn is_uniform(knots: &[f64]) -> bool {
-    let width = knots[3] - knots[2];
-    let greatest = knots[0].abs().max(knots[knots.len() - 1].abs());
-    let slack = (4.0 * f64::EPSILON * greatest).clamp(1e-12 * width, 1e-10 * width);
-    let mut gaps = knots.windows(2).map(|k| k[1] - k[0]);
-    gaps.all(|gap| (gap - width).abs() <= slack)
-}
-
-/// A Bernstein coefficient of a rational curve in homogeneous coordinates: w P and w.
-#[derive(Clone, Copy, Default)]
-struct Coefficient {
-    point: Point<f64>,
-    weight: f64,
-}
-
-impl Coefficient {
-    fn lerp(self, other: Self, t: f64) -> Self {
-        Self {
-            point: self.point.lerp(other.point, t),
-            weight: self.weight * (1.0 - t) + other.weight * t,
-        }
-    }
-
-    fn project(self) -> Point<f64> {
-        self.point * (1.0 / self.weight)
-    }
-}
-
-/// Coefficients of a curve of any degree p, in the first p + 1 elements.
-type Coefficients = [Coefficient; MAX_DEGREE + 1];
-
-/// The span [a, b] as a Bezier curve, points relative to `origin`, in the first p + 1 of N
-/// elements.
-///
-/// Coefficient j is the blossom (polar form) of the span at p - j times a and j times b, the result
-/// of Boehm's knot insertion until a and b are p-fold. Every step is a convex combination, so
-/// rounding errors do not grow. Sources: Ramshaw 1989; Piegl & Tiller, The NURBS Book, section 5.2.
-fn bezier_of_span<const N: usize>(
-    curve: &Nurbs,
-    span: usize,
-    origin: Point<f64>,
-) -> [Coefficient; N] {
-    let (p, knots) = (curve.degree(), curve.knots());
-    let (a, b) = (knots[span], knots[span + 1]);
-    let weights = curve.weights().filter(|_| curve.is_rational());
-    let mut control = [Coefficient::default(); N];
-    for (c, i) in control.iter_mut().zip(span - p..=span) {
-        let weight = weights.map_or(1.0, |w| w[i]);
-        *c = Coefficient {
-            point: (curve.points()[i] - origin) * weight,
-            weight,
-        };
-    }
-    let mut bezier = [Coefficient::default(); N];
-    for (j, out) in bezier.iter_mut().enumerate().take(p + 1) {
-        let mut d = control;
-        for r in 1..=p {
-            let u = if r <= j { b } else { a };
-            for i in (r..=p).rev() {
-                let (low, high) = (knots[span - p + i], knots[span + 1 + i - r]);
-                d[i] = d[i - 1].lerp(d[i], (u - low) / (high - low));
-            }
-        }
-        *out = d[p];
-    }
-    bezier
 }
 
 /// Fits cubics to rational Bezier curves N/w, with points relative to `origin`.

@@ -19,6 +19,7 @@
 //! | [`uniform`], `runs` | control points | points and derivatives of a segment; a curve |
 //! | [`basis`], [`knots`], `nurbs` | degree, knots, weights | a NURBS curve and its points |
 //! | `convert`, `arc` | NURBS, Bezier curves, polylines, arcs | runs and an error bound |
+//! | `exact`, `span` | a NURBS without weights, a span of any | one run of as many points; a Bezier curve |
 //! | [`bezier`] | four points | points, parts and directions of a cubic Bezier curve |
 //! | `intersect` | two cubic Beziers | where they cross |
 //! | [`construct`] | points, directions, radii, curves | arcs, splines, fillets; parts and joins of curves |
@@ -34,6 +35,7 @@ pub mod bezier;
 mod bounds;
 pub mod construct;
 mod convert;
+mod exact;
 mod flatten;
 mod hilbert;
 mod intersect;
@@ -45,6 +47,7 @@ mod nurbs;
 mod point;
 mod real;
 mod runs;
+mod span;
 pub mod uniform;
 
 pub use affine::Affine;

@@ -39,6 +39,14 @@ impl Runs {
         self.push(&[start - step, start, end, end + step]);
     }
 
+    /// Appends the straight lines between points, exactly.
+    pub fn push_polyline(&mut self, points: &[Point<f64>]) {
+        for &[start, end] in points.array_windows() {
+            let step = end - start;
+            self.push_segment(&[start - step, start, end, end + step]);
+        }
+    }
+
     /// Appends one segment. If its first three points equal the last three of the last run, it
     /// extends that run by one point, which draws the same with a quarter of the memory.
     pub fn push_segment(&mut self, segment: &[Point<f64>; 4]) {

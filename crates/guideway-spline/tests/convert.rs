@@ -2,35 +2,15 @@
 
 mod common;
 
-use common::{P, nurbs, one_way, run_samples, sagitta, scale, span_samples, spans};
+use common::{
+    P, difference, nurbs, one_way, run_samples, sagitta, scale, segments, span_samples, spans,
+    zigzag,
+};
 use guideway_spline::{
     Conversion, Nurbs, NurbsError, Point, Runs, basis, bezier_to_runs, knots, nurbs_to_runs,
     polyline_to_runs, uniform,
 };
 use proptest::prelude::*;
-
-/// All segments of all runs.
-fn segments(runs: &Runs) -> Vec<[P; 4]> {
-    let of_run = |run: &[P]| {
-        (0..run.len() - 3)
-            .map(|i| *uniform::segment(run, i))
-            .collect::<Vec<_>>()
-    };
-    runs.iter().flat_map(of_run).collect()
-}
-
-/// Largest difference at equal parameters, where each segment is one span.
-fn difference(curve: &Nurbs, runs: &Runs) -> f64 {
-    let (segments, spans) = (segments(runs), spans(curve));
-    assert_eq!(segments.len(), spans.len());
-    let at_span = |(segment, span): (&[P; 4], &(f64, f64))| {
-        let expected = span_samples(curve, *span, 8);
-        let at = |i: usize| uniform::point(segment, i as f64 / 8.0).distance(expected[i]);
-        (0..=8).map(at).fold(0.0, f64::max)
-    };
-    let differences = segments.iter().zip(&spans).map(at_span);
-    differences.fold(0.0, f64::max)
-}
 
 /// Hausdorff distance between the samples of both curves, less the error of sampling.
 fn distance(curve: &Nurbs, runs: &Runs) -> f64 {
@@ -126,11 +106,6 @@ fn recurrence(i: usize, p: usize, knots: &[f64], u: f64) -> f64 {
     )
 }
 
-fn zigzag(count: usize) -> Vec<P> {
-    let at = |i: usize| Point::new(i as f64 * 3.0, (i % 2) as f64 * 5.0 + (i % 3) as f64);
-    (0..count).map(at).collect()
-}
-
 #[test]
 fn comparator_detects_wrong_curves() {
     let points = zigzag(7);
@@ -185,15 +160,6 @@ fn uniform_cubics_keep_their_control_points() {
         uniform::end(uniform::segment(run, 8)),
     );
     assert_eq!(ends.0, ends.1);
-}
-
-#[test]
-fn long_clamped_curve_yields_few_runs() {
-    let points = zigzag(100);
-    let curve = Nurbs::new(3, knots::uniform_clamped(3, 100), points, None).unwrap();
-    let mut runs = Runs::default();
-    assert_eq!(nurbs_to_runs(&curve, 1e-3, &mut runs).pieces, 97);
-    assert!(runs.len() <= 5, "{} runs", runs.len());
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use guideway_document::{Document, PointRef, SnapOptions, drawn_path};
-use guideway_layout::{PathRef, Value};
+use guideway_layout::{PathRef, Value, WrittenCurve};
 use guideway_spline::{Affine, Point};
 
-use crate::site::{document, ends, is_near, p, select, two_joined};
+use crate::site::{document, document_of, ends, is_near, p, select, two_joined};
 
 #[test]
 fn rotates_and_mirrors_about_the_given_points() {
@@ -39,6 +39,32 @@ fn copies_keep_attributes_and_are_evenly_spaced() {
     let speed = &saved.paths.attributes.get("speed").unwrap().values;
     assert_eq!(saved.paths.len(), 9);
     assert!((2..9).all(|row| speed.get(row) == Some(Value::Float(1.0))));
+}
+
+#[test]
+fn copies_keep_the_written_curve_and_the_draw_rank() {
+    let mut layout = document(2).to_layout();
+    let written = WrittenCurve {
+        degree: 2,
+        knots: Vec::new(),
+        points_m: vec![p(0.0, 0.0), p(5.0, 0.0), p(10.0, 0.0)],
+        weights: Some(vec![1.0, 2.0, 1.0]),
+    };
+    layout.paths.set_written_curve(0, written.clone());
+    layout.paths.set_rank(vec![7, 3]);
+    let mut document = document_of(layout);
+    select(&mut document, [0]);
+    document.copy_selection(2, p(0.0, 100.0)).unwrap();
+    let saved = document.to_layout();
+    assert_eq!(saved.paths.rank(), Some(&[7, 3, 7, 7][..]));
+    for (row, y) in [(2, 100.0), (3, 200.0)] {
+        let points_m = written.points_m.iter().map(|&q| q + p(0.0, y)).collect();
+        let expected = WrittenCurve {
+            points_m,
+            ..written.clone()
+        };
+        assert_eq!(saved.paths.written_curve(row), Some(&expected));
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Lazy arrays: parses a long array in batches on all cores, so that memory holds one batch beside
-//! the text.
+//! Lazy arrays: parses a long array in batches on all cores, so that memory holds two batches
+//! beside the text.
 
 use std::cell::RefCell;
 use std::marker::PhantomData;
@@ -13,7 +13,7 @@ use super::field::{Field, FromJson, JsonType};
 use super::parse::problem;
 use super::scan::{items_at, member, value_end};
 use crate::ReadError;
-use crate::builder::Builder;
+use crate::source::Source;
 
 /// Items per task of a thread.
 const TASK_ITEMS: usize = 64;
@@ -107,20 +107,39 @@ impl<'t, T> LazyItem<'t, T> {
     }
 }
 
+/// Items of an array that follow each other.
+pub(crate) struct Batch<'t, T> {
+    pub(crate) items: Vec<LazyItem<'t, T>>,
+    /// Bytes of the text from the batch before to the end of this one.
+    pub(crate) bytes: usize,
+}
+
 impl<'t, T: FromJson<'t> + Send> LazyItems<'t, T> {
-    /// Parses the next items, on all cores; `None` at the end of the array.
+    /// Calls `map` for the batches in order. The other cores parse the next batch meanwhile.
     ///
     /// # Errors
-    /// When an item is not valid, or the caller cancels the read.
-    pub(crate) fn next(
-        &mut self,
-        builder: &mut Builder<'_>,
-    ) -> Result<Option<Vec<LazyItem<'t, T>>>, ReadError> {
+    /// When an item is not valid, or `map` fails.
+    pub(crate) fn for_each_batch(
+        mut self,
+        source: Source<'_>,
+        mut map: impl FnMut(Batch<'t, T>) -> Result<(), ReadError> + Send,
+    ) -> Result<(), ReadError> {
+        let mut next = self.parse(&source)?;
+        while let Some(batch) = next {
+            let (mapped, parsed) = rayon::join(|| map(batch), || self.parse(&source));
+            mapped?;
+            next = parsed?;
+        }
+        Ok(())
+    }
+
+    /// Parses the next items, on all cores; `None` at the end of the array.
+    fn parse(&mut self, source: &Source<'_>) -> Result<Option<Batch<'t, T>>, ReadError> {
         let first = self.index;
         let ranges = self.take_ranges();
         self.index += ranges.len();
         let end = ranges.last().map_or(self.at, |range| range.end);
-        builder.advance(end - std::mem::replace(&mut self.at, end))?;
+        let bytes = end - std::mem::replace(&mut self.at, end);
         let parse = |(i, range): (usize, &Range<usize>)| {
             let text = &self.file[range.clone()];
             let record = serde_json::from_str(text);
@@ -144,10 +163,10 @@ impl<'t, T: FromJson<'t> + Send> LazyItems<'t, T> {
         for (item, range) in parsed.into_iter().flatten().zip(&ranges) {
             items.push(item.map_err(|error| {
                 let problem = problem(&error, self.file, range.start);
-                builder.source.fail(problem)
+                source.fail(problem)
             })?);
         }
-        Ok((!items.is_empty()).then_some(items))
+        Ok((!items.is_empty()).then_some(Batch { items, bytes }))
     }
 
     /// Returns the ranges of the next items in the file.

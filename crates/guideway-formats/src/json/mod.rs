@@ -38,7 +38,7 @@ pub(crate) use self::cell::{Cell, CellKind, CellResult};
 pub(crate) use self::check::{field_place, items};
 pub(crate) use self::documents::{documents, payload};
 pub(crate) use self::field::{Field, FromJson, Key};
-pub(crate) use self::lazy_array::{LazyArray, LazyItem};
+pub(crate) use self::lazy_array::{LazyArray, LazyItem, LazyItems};
 pub(crate) use self::lines::{find_lines, offset_in, root_items};
 pub(crate) use self::parse::parse;
 pub(crate) use self::record::record;

@@ -8,13 +8,20 @@ use super::model::{self, Origin, Root};
 use super::type_entries::{ColumnCell, other_cell};
 use crate::ReadError;
 use crate::builder::PlaceFn;
-use crate::json::{Field, OtherMembers, field_place, items};
+use crate::json::{Field, FromJson, LazyItem, LazyItems, OtherMembers, field_place, items};
 
 /// A layout record with its place in the file. Each maps to a level.
 struct LayoutEntry<'r, 'a> {
     place: String,
     record: &'r model::Layout<'a>,
     origin: Option<&'r Origin<'a>>,
+}
+
+impl LayoutEntry<'_, '_> {
+    /// The place of an array of the record.
+    fn list(&self, key: &str) -> String {
+        format!("{}.{key}", self.place)
+    }
 }
 
 impl Mapper<'_> {
@@ -29,39 +36,42 @@ impl Mapper<'_> {
         for (level, entry) in layouts.iter().enumerate() {
             self.builder.element_byte = None;
             self.map_level(entry)?;
-            let mut nodes = entry.record.nodes.items(file);
-            while let Some(batch) = nodes.next(&mut self.builder)? {
-                for node in &batch {
-                    let i = node.index;
-                    let at = || Place::element(format!("{}.nodes[{i}]", entry.place));
-                    self.builder.element_byte = Some(self.text_start + node.start);
-                    self.map_node(node, level as u32, &at)?;
-                }
-            }
+            let (nodes, list) = (entry.record.nodes.items(file), entry.list("nodes"));
+            self.map_items(nodes, &list, |mapper, node, at| {
+                mapper.map_node(node, level as u32, at)
+            })?;
         }
         for (level, entry) in layouts.iter().enumerate() {
-            let mut edges = entry.record.edges.items(file);
-            while let Some(batch) = edges.next(&mut self.builder)? {
-                for edge in &batch {
-                    let i = edge.index;
-                    let at = || Place::element(format!("{}.edges[{i}]", entry.place));
-                    self.builder.element_byte = Some(self.text_start + edge.start);
-                    self.map_edge(edge, level as u32, &at)?;
-                }
-            }
-            let mut stations = entry.record.stations.items(file);
-            while let Some(batch) = stations.next(&mut self.builder)? {
-                for station in &batch {
-                    let i = station.index;
-                    let at = || Place::element(format!("{}.stations[{i}]", entry.place));
-                    self.builder.element_byte = Some(self.text_start + station.start);
-                    self.map_station(station, level as u32, &at)?;
-                }
-            }
+            let (edges, list) = (entry.record.edges.items(file), entry.list("edges"));
+            self.map_items(edges, &list, |mapper, edge, at| {
+                mapper.map_edge(edge, level as u32, at)
+            })?;
+            let (stations, list) = (entry.record.stations.items(file), entry.list("stations"));
+            self.map_items(stations, &list, |mapper, station, at| {
+                mapper.map_station(station, level as u32, at)
+            })?;
         }
         self.builder.element_byte = None;
         self.set_node_types();
         Ok(self.finish(layouts.len()))
+    }
+
+    /// Maps the items of an array, whose place in the file is `list`.
+    fn map_items<'t, T: FromJson<'t> + Send>(
+        &mut self,
+        items: LazyItems<'t, T>,
+        list: &str,
+        map: impl Fn(&mut Self, &LazyItem<'t, T>, PlaceFn<'_>) -> Result<(), ReadError> + Sync,
+    ) -> Result<(), ReadError> {
+        items.for_each_batch(self.builder.source, |batch| {
+            self.builder.advance(batch.bytes)?;
+            for item in &batch.items {
+                let at = || Place::element(format!("{list}[{}]", item.index));
+                self.builder.element_byte = Some(self.text_start + item.start);
+                map(self, item, &at)?;
+            }
+            Ok(())
+        })
     }
 
     fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {

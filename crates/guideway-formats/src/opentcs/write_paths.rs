@@ -34,6 +34,10 @@ struct Changes {
     reverse_speeds: usize,
     lengths: usize,
     operations: usize,
+    /// Two-way paths that are closed both ways.
+    closed: usize,
+    /// Two-way paths that are closed from their start to their end.
+    half_closed: usize,
 }
 
 /// Writes all paths with a curve.
@@ -84,6 +88,17 @@ pub(super) fn write_paths<W: Write>(
         changes.operations,
         detail,
     );
+    let detail = "two-way paths of speed 0: closed, which readers take as one-way";
+    losses.add("directions", changes.closed, detail);
+    let detail = "two-way paths of speed 0, but for their way back: written as its one-way paths";
+    for what in [
+        "directions",
+        "curves",
+        "column maxSpeed",
+        "column maxReverseSpeed",
+    ] {
+        losses.add(what, changes.half_closed, detail);
+    }
     Ok(())
 }
 
@@ -177,8 +192,13 @@ fn speeds_mm_s(layout: &Layout, row: usize, is_reversed: bool, changes: &mut Cha
             let stated = layout.paths.value(row, "maxReverseSpeed");
             let reverse = speed_mm_s(stated).filter(|&reverse| reverse > 0);
             changes.reverse_speeds += usize::from(is_rounded(stated, reverse));
-            // A two-way path of speed 0 stays a two-way one.
-            [forward, reverse.unwrap_or(forward).max(1)]
+            // Speed 0 closes a direction.
+            match (forward, reverse) {
+                (0, None) => changes.closed += 1,
+                (0, Some(_)) => changes.half_closed += 1,
+                _ => {}
+            }
+            [forward, reverse.unwrap_or(forward)]
         }
     }
 }

@@ -119,6 +119,8 @@ impl<'a> Route<'a> {
         let nodes = firsts.filter_map(|(end, _)| end.node);
         let mut names = UniqueNames::new(nodes.map(|node| layout.nodes.id(node)));
         let mut ids: HashMap<u32, Cow<'a, str>> = HashMap::new();
+        // A node that is passed again stays on its map: on another one it would be another node.
+        let mut maps: HashMap<u32, Option<&'a str>> = HashMap::new();
         let mut new_nodes = 0;
         let mut places = Vec::with_capacity(ends.len());
         for (i, end) in ends.iter().enumerate() {
@@ -135,11 +137,16 @@ impl<'a> Route<'a> {
             };
             let around = [rows.get(i), i.checked_sub(1).and_then(|i| rows.get(i))];
             let around = around.map(|row| Some(layout.paths.get(*row?)));
+            let map = || map_of(layout, end.node, around, is_order);
+            let map = match end.node {
+                Some(node) => *maps.entry(node).or_insert_with(map),
+                None => map(),
+            };
             places.push(RoutePlace {
                 node: end.node.map(|node| node as usize),
                 id,
                 position_m: end.position_m,
-                map: map_of(layout, end.node, around, is_order),
+                map,
                 sequence: sequence[2 * i],
                 is_repeated: is_repeated[i],
                 pass: end

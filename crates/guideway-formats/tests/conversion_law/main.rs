@@ -4,6 +4,7 @@
 mod law;
 mod random_layout;
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use guideway_formats::{ReadOptions, Target, read_file};
@@ -21,10 +22,10 @@ const REAL: [&str; 3] = ["layouts", "cases", "conformance/real"];
 const ATTACKS: &str = "hostile";
 
 /// Paths above which a real file is left out: the comparison of curves would take minutes.
-const MAX_PATHS: usize = 2_000;
+const MAX_PATHS: usize = 20_000;
 
-/// Environment variable with the number of random layouts.
-const COUNT_VARIABLE: &str = "GUIDEWAY_RANDOM_LAYOUTS";
+/// Environment variable with the seeds of random layouts: a number of them, or `FIRST..END`.
+const SEEDS_VARIABLE: &str = "GUIDEWAY_RANDOM_LAYOUTS";
 
 #[test]
 fn real_files_lose_what_is_listed() {
@@ -56,9 +57,7 @@ fn real_files_lose_what_is_listed() {
 
 #[test]
 fn random_layouts_lose_what_is_listed() {
-    let count = std::env::var(COUNT_VARIABLE).ok();
-    let count = count.map_or(200, |count| count.parse().expect("a number of layouts"));
-    let found = (0..count).into_par_iter().flat_map_iter(|seed: u64| {
+    let found = seeds(200).into_par_iter().flat_map_iter(|seed: u64| {
         let layout = random_layout(seed);
         let name = format!("random layout {seed}");
         let targets = Target::ALL.iter();
@@ -72,7 +71,7 @@ fn random_layouts_lose_what_is_listed() {
 /// An order holds one route, which random layouts rarely are: a single path is one.
 #[test]
 fn random_routes_lose_what_is_listed() {
-    let found = (0..400).into_par_iter().flat_map_iter(|seed: u64| {
+    let found = seeds(400).into_par_iter().flat_map_iter(|seed: u64| {
         let mut layout = random_layout(seed);
         let has_node = |path: &PathRef<'_>| path.start_node().or(path.end_node()).is_some();
         let row = layout.paths.iter().find(has_node).map(|path| path.row());
@@ -137,6 +136,18 @@ fn random_layouts_have_all_features() {
     ];
     for (name, has) in features {
         assert!(layouts.iter().any(has), "no random layout has {name}");
+    }
+}
+
+/// Returns the seeds of the environment variable, or else the first `count`.
+fn seeds(count: u64) -> Range<u64> {
+    let number = |text: &str| -> u64 { text.parse().expect("a number of layouts") };
+    match std::env::var(SEEDS_VARIABLE) {
+        Ok(seeds) => match seeds.split_once("..") {
+            Some((first, end)) => number(first)..number(end),
+            None => 0..number(&seeds),
+        },
+        Err(_) => 0..count,
     }
 }
 

@@ -297,6 +297,37 @@ fn keeps_gaps() {
     assert_eq!(codes(&again), [Code::KnotMultiplicity]);
 }
 
+/// A curve that a writer made takes as many control points as before, whether it is written with
+/// degree 3 or, where it is straight, with degree 1.
+#[test]
+fn written_curves_come_back_with_as_many_control_points() {
+    let bend = |i: usize| Point::new(i as f64, (i as f64 * 1.7).sin());
+    let curved: Vec<_> = (0..11).map(bend).collect();
+    // Single precision makes the steps uneven, as in many files.
+    let even = |i: usize| Point::new(f64::from(-1131.5_f32 + 0.387_973_f32 * i as f32), 609.25);
+    let straight: Vec<_> = (0..11).map(even).collect();
+    let mut layout = Layout::default();
+    for points in [&curved, &straight] {
+        let mut runs = Runs::default();
+        runs.push(points);
+        layout.paths.push(&NewPath {
+            runs: &runs,
+            ..NewPath::default()
+        });
+    }
+    for version in VERSIONS {
+        let (text, _) = written(&layout, version);
+        assert!(text.contains(r#""degree":1"#) && text.contains(r#""degree":3"#));
+        let again = read(&text);
+        assert_same_curves(&layout, &again, "control points");
+        for path in again.paths.iter() {
+            let lengths: Vec<usize> = path.runs().map(|run| run.len()).collect();
+            assert_eq!(lengths, [11], "path {}", path.row());
+        }
+        assert!(again.paths.written_curves().is_empty());
+    }
+}
+
 #[test]
 #[should_panic(expected = "m off")]
 fn comparison_detects_a_moved_curve() {

@@ -262,3 +262,41 @@ fn plant_models_are_saved_in_their_version() {
         Some(Target::OpenTcs7)
     );
 }
+
+/// Speed 0 closes a direction in openTCS, so a two-way path of speed 0 is closed, not opened.
+#[test]
+fn two_way_paths_of_speed_0_stay_closed_and_are_listed() {
+    let mut layout = line();
+    layout.paths.set_direction(0, Direction::Both);
+    let paths = &mut layout.paths.attributes;
+    paths.set_quantity(0, "maxSpeed", 0.0, Quantity::Speed);
+    paths.set_quantity(0, "length", 10.0, Quantity::Length);
+    let (text, losses) = write(&layout);
+    assert!(
+        text.contains(r#"maxVelocity="0" maxReverseVelocity="0""#),
+        "{text}"
+    );
+    let of_paths = |losses: &Losses| {
+        let all = losses.iter().map(|loss| loss.what.clone());
+        all.filter(|what| what != "layout properties")
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(of_paths(&losses), ["directions"]);
+
+    // The way back is open: openTCS has a path from B to A.
+    let paths = &mut layout.paths.attributes;
+    paths.set_quantity(0, "maxReverseSpeed", 0.5, Quantity::Speed);
+    let (text, losses) = write(&layout);
+    let again = read(&text);
+    let path = again.paths.get(0);
+    let ends = [path.start_node(), path.end_node()].map(|node| again.nodes.id(node.unwrap()));
+    assert_eq!((ends, path.direction()), (["B", "A"], Direction::Forward));
+    assert_eq!(again.paths.value(0, "maxSpeed"), Some(Value::Float(0.5)));
+    let expected = [
+        "directions",
+        "curves",
+        "column maxSpeed",
+        "column maxReverseSpeed",
+    ];
+    assert_eq!(of_paths(&losses), expected);
+}

@@ -5,7 +5,7 @@ use std::time::SystemTime;
 use crate::common::{read, shared};
 use guideway_formats::vda5050::{Version, WriteOptions, write_layout};
 use guideway_formats::{Losses, ReadOptions, WriteProblem, read_file};
-use guideway_layout::{CompareOptions, Direction, Layout, NewPath, Value, differences};
+use guideway_layout::{CompareOptions, Direction, Layout, Level, NewPath, Value, differences};
 use guideway_spline::{Point, Runs};
 use serde_json::Value as Json;
 
@@ -211,4 +211,39 @@ fn two_way_paths_lose_a_direction() {
     layout.paths.set_direction(1, Direction::Both);
     let (_, losses) = try_write(&layout, Version::V3).unwrap();
     assert_eq!(whats(&losses), ["directions", "levels", "levels"]);
+}
+
+#[test]
+fn a_node_that_is_passed_again_stays_on_its_map() {
+    let mut layout = Layout::default();
+    for level in ["ground", "first"] {
+        layout.levels.push(Level {
+            id: level.into(),
+            ..Level::default()
+        });
+    }
+    for (id, x) in [("A", 0.0), ("B", 10.0)] {
+        layout.nodes.push(id, Point::new(x, 0.0), None);
+    }
+    // Without levels of their own, the nodes have those of the paths around them.
+    for (id, [from, to], level) in [("there", [0, 1], 0), ("back", [1, 0], 1)] {
+        let mut runs = Runs::default();
+        let [start, end] = [from, to].map(|node| layout.nodes.position_m(node));
+        runs.push_line(start, end);
+        layout.paths.push(&NewPath {
+            id,
+            runs: &runs,
+            start_node: Some(from),
+            end_node: Some(to),
+            level: Some(level),
+            ..NewPath::default()
+        });
+    }
+    for version in [Version::V2, Version::V3] {
+        let (text, _) = try_write(&layout, version).unwrap();
+        let order: Json = serde_json::from_str(&text).unwrap();
+        let maps = [0, 1, 2].map(|i| order["nodes"][i]["nodePosition"]["mapId"].as_str());
+        assert_eq!(maps, [Some("ground"), Some("first"), Some("ground")]);
+        assert_eq!(read(&text).nodes.len(), 2);
+    }
 }

@@ -1,24 +1,28 @@
 //! Lists the changes from one layout to another, element by element.
 
-use std::collections::BTreeSet;
-
 use guideway_spline::Point;
 use rayon::prelude::*;
 
-use super::change::{Change, Changes, ElementChange};
-use super::columns::{are_equal, names};
+use super::cells::{Cells, Table};
+use super::change::{Change, ChangedValue, Changes, ElementChange};
 use super::curve_distance::{are_near, greatest_distance_m};
 use super::difference::{CompareOptions, Differences};
-use super::element_pairs::{level_id, match_nodes, match_paths, match_stations};
+use super::element_pairs::level_id;
 use super::groups::{self, MemberPairs};
+use super::moved_pairs::ElementPairs;
 use super::row_pairs::RowPairs;
-use crate::{Attributes, Direction, ElementKind, Layout, PathRef, TypeEntries, Value};
+use crate::{ElementKind, Layout, PathRef};
+
+/// Pairs of elements that a task of a thread compares.
+const TASK_PAIRS: usize = 1024;
 
 /// Lists what changed from an old layout to a new one, element by element.
 ///
-/// Elements are matched by identifier, in order among equal ones. Those that remain are matched by
-/// place: a node or station at the same position, a path with the same ends and middle, on the same
-/// level. They were renamed.
+/// Elements are matched by identifier, in order among equal ones. Those that remain were renamed if
+/// one element is at their place: a node or station at the same position, a path with the same ends
+/// and middle, on the same level. They were renamed and moved if one element alone fits: a node at
+/// the same ends of paths, between the same nodes or within a meter; a path between the same nodes;
+/// a station with the same nodes or within a meter.
 ///
 /// ```
 /// use guideway_layout::{Change, CompareOptions, Layout, changes};
@@ -31,315 +35,166 @@ use crate::{Attributes, Direction, ElementKind, Layout, PathRef, TypeEntries, Va
 /// let found = changes(&old, &new, &CompareOptions::default());
 /// assert_eq!(found.elements[0].change, Change::Moved { distance_m: 2.0 });
 /// ```
-pub fn changes(old: &Layout, new: &Layout, options: &CompareOptions) -> Changes {
+pub fn changes<'a>(old: &'a Layout, new: &'a Layout, options: &CompareOptions) -> Changes<'a> {
     let layouts = [old, new];
-    let nodes = match_nodes(layouts, options);
-    let stations = match_stations(layouts, options);
-    let paths = match_paths(layouts, options);
-    let mut list = Lister {
-        layouts,
-        options,
-        nodes: &nodes,
-        found: Vec::new(),
-    };
-    list.nodes();
-    list.paths(&paths);
-    list.stations(&stations);
+    let pairs = ElementPairs::of(layouts, options);
+    let mut columns = Vec::new();
+    let mut elements = Vec::new();
+    for (kind, of_kind) in [
+        (ElementKind::Node, &pairs.nodes),
+        (ElementKind::Path, &pairs.paths),
+        (ElementKind::Station, &pairs.stations),
+    ] {
+        let tables = layouts.map(|layout| Table::of(layout, kind));
+        let list = Lister {
+            layouts,
+            options,
+            nodes: &pairs.nodes,
+            kind,
+            cells: Cells::new(tables, options.relative_tolerance, &mut columns),
+        };
+        list.add_to(of_kind, &mut elements);
+    }
     let members = MemberPairs {
-        paths: &paths,
-        nodes: &nodes,
-        stations: &stations,
+        paths: &pairs.paths,
+        nodes: &pairs.nodes,
+        stations: &pairs.stations,
     };
-    let elements = list.found;
     let mut found = Differences::default();
     groups::compare(layouts, &members, options, &mut found);
     Changes {
         elements,
         groups: found.into_vec(),
+        layouts,
+        columns,
     }
 }
 
-/// Collects the changes of two layouts.
+/// Lists the changes of one kind of element.
 struct Lister<'a> {
     layouts: [&'a Layout; 2],
     options: &'a CompareOptions,
     nodes: &'a RowPairs,
-    found: Vec<ElementChange>,
-}
-
-/// The element whose changes are listed.
-#[derive(Clone, Copy)]
-struct Element<'a> {
     kind: ElementKind,
-    id: &'a str,
-    rows: [Option<u32>; 2],
+    cells: Cells<'a>,
 }
 
-/// A row whose values may differ per vehicle type.
-#[derive(Clone, Copy)]
-struct TypedRow<'a> {
-    columns: &'a Attributes,
-    types: &'a TypeEntries,
-    row: usize,
-}
-
-impl<'a> TypedRow<'a> {
-    /// The value for a vehicle type, else that for all.
-    fn value(self, vehicle_type: Option<&str>, name: &str) -> Option<Value<'a>> {
-        let of_type = || {
-            let entry = self.types.entry_for(self.row, vehicle_type?)?;
-            self.types.attributes.value(entry, name)
+impl Lister<'_> {
+    /// Appends the changes of all pairs, then the elements without a partner.
+    fn add_to(&self, pairs: &RowPairs, all: &mut Vec<ElementChange>) {
+        let rows: Vec<(u32, u32)> = pairs.pairs().collect();
+        let of_task = |rows: &[(u32, u32)]| {
+            let mut found = Vec::new();
+            for &(p, q) in rows {
+                let rows = [Some(p), Some(q)];
+                self.compare([p, q], &mut |change| {
+                    found.push(ElementChange::new(self.kind, rows, change));
+                });
+            }
+            found
         };
-        of_type().or_else(|| self.columns.value(self.row, name))
-    }
-
-    fn text(self, name: &str, value: Value<'_>) -> String {
-        let table = match self.columns.get(name) {
-            Some(_) => self.columns,
-            None => &self.types.attributes,
-        };
-        text_of(table, name, value)
-    }
-}
-
-impl<'a> Lister<'a> {
-    fn add(&mut self, element: Element<'_>, change: Change) {
-        self.found.push(ElementChange {
-            element: element.kind,
-            id: element.id.to_owned(),
-            old_row: element.rows[0],
-            new_row: element.rows[1],
-            change,
-        });
-    }
-
-    /// Adds the elements without a partner.
-    fn add_unmatched(
-        &mut self,
-        kind: ElementKind,
-        pairs: &RowPairs,
-        ids: [&dyn Fn(u32) -> &'a str; 2],
-    ) {
+        let tasks = rows.par_chunks(TASK_PAIRS).map(of_task);
+        let lists: Vec<Vec<ElementChange>> = tasks.collect();
+        all.reserve(lists.iter().map(Vec::len).sum());
+        lists.into_iter().for_each(|list| all.extend(list));
         for row in pairs.removed() {
-            let (id, rows) = (ids[0](row), [Some(row), None]);
-            self.add(Element { kind, id, rows }, Change::Removed);
+            all.push(ElementChange::new(
+                self.kind,
+                [Some(row), None],
+                Change::Removed,
+            ));
         }
         for &row in pairs.added() {
-            let (id, rows) = (ids[1](row), [None, Some(row)]);
-            self.add(Element { kind, id, rows }, Change::Added);
+            all.push(ElementChange::new(
+                self.kind,
+                [None, Some(row)],
+                Change::Added,
+            ));
         }
     }
 
-    fn add_name(&mut self, element: Element<'_>, new_id: &str) {
-        if element.id != new_id {
-            let to = new_id.to_owned();
-            self.add(element, Change::Renamed { to });
+    /// Finds the changes of one element.
+    fn compare(&self, rows: [u32; 2], found: &mut impl FnMut(Change)) {
+        match self.kind {
+            ElementKind::Path => self.compare_paths(rows, found),
+            ElementKind::Station => self.compare_stations(rows, found),
+            _ => self.compare_nodes(rows, found),
+        }
+        let rows = rows.map(|row| row as usize);
+        let mut set = |value| found(Change::Set(value));
+        self.cells.compare(rows, &mut set);
+    }
+
+    fn compare_nodes(&self, [p, q]: [u32; 2], found: &mut impl FnMut(Change)) {
+        let [a, b] = self.layouts.map(|layout| &layout.nodes);
+        if a.id(p) != b.id(q) {
+            found(Change::Renamed);
+        }
+        self.compare_positions([a.position_m(p), b.position_m(q)].map(Some), found);
+        self.compare_levels([a.level(p), b.level(q)], found);
+    }
+
+    fn compare_stations(&self, [p, q]: [u32; 2], found: &mut impl FnMut(Change)) {
+        let [a, b] = self.layouts.map(|layout| &layout.stations);
+        if a.id(p) != b.id(q) {
+            found(Change::Renamed);
+        }
+        self.compare_positions([a.position_m(p), b.position_m(q)], found);
+        self.compare_levels([a.level(p), b.level(q)], found);
+        let expected = a.nodes(p).iter().map(|&node| self.nodes.partner(node));
+        if !expected.eq(b.nodes(q).iter().map(|&node| Some(node))) {
+            found(Change::Set(ChangedValue::Nodes));
         }
     }
 
-    fn add_position(&mut self, element: Element<'_>, positions: [Option<Point<f64>>; 2]) {
+    fn compare_paths(&self, [p, q]: [u32; 2], found: &mut impl FnMut(Change)) {
+        let [a, b] = self.layouts;
+        let paths = [a.paths.get(p as usize), b.paths.get(q as usize)];
+        if paths[0].id() != paths[1].id() {
+            found(Change::Renamed);
+        }
+        if let Some(change) = curve_change(paths, self.options.tolerance_m) {
+            found(change);
+        }
+        self.compare_levels(paths.map(PathRef::level), found);
+        if paths[0].direction() != paths[1].direction() {
+            found(Change::Set(ChangedValue::Direction));
+        }
+        for (value, ends) in [
+            (ChangedValue::StartNode, paths.map(PathRef::start_node)),
+            (ChangedValue::EndNode, paths.map(PathRef::end_node)),
+        ] {
+            let is_same = match ends {
+                [Some(p), q] => self.nodes.partner(p).is_some_and(|p| Some(p) == q),
+                [None, q] => q.is_none(),
+            };
+            if !is_same {
+                found(Change::Set(value));
+            }
+        }
+    }
+
+    fn compare_positions(
+        &self,
+        positions: [Option<Point<f64>>; 2],
+        found: &mut impl FnMut(Change),
+    ) {
         match positions {
             [Some(p), Some(q)] => {
                 let distance_m = p.distance(q);
                 if distance_m > self.options.tolerance_m {
-                    self.add(element, Change::Moved { distance_m });
+                    found(Change::Moved { distance_m });
                 }
             }
-            positions => {
-                let texts = positions.map(|p| p.map(|p| format!("({}, {}) m", p.x, p.y)));
-                self.add_set(element, "position", None, texts);
-            }
+            [None, None] => {}
+            _ => found(Change::Set(ChangedValue::Position)),
         }
     }
 
-    fn add_set(
-        &mut self,
-        element: Element<'_>,
-        property: &str,
-        vehicle_type: Option<&str>,
-        [before, after]: [Option<String>; 2],
-    ) {
+    fn compare_levels(&self, levels: [Option<u32>; 2], found: &mut impl FnMut(Change)) {
+        let [before, after] = [0, 1].map(|i| level_id(self.layouts[i], levels[i]));
         if before != after {
-            let change = Change::Set {
-                property: property.to_owned(),
-                vehicle_type: vehicle_type.map(str::to_owned),
-                before,
-                after,
-            };
-            self.add(element, change);
-        }
-    }
-
-    /// Adds the values of one row of two tables that differ.
-    fn add_cells(&mut self, element: Element<'_>, tables: [(&Attributes, usize); 2]) {
-        for name in names(&tables.map(|(table, _)| table)) {
-            let cells = tables.map(|(table, row)| table.value(row, name));
-            if !are_equal(cells, self.options.relative_tolerance) {
-                let texts = [0, 1].map(|i| Some(text_of(tables[i].0, name, cells[i]?)));
-                self.add_set(element, name, None, texts);
-            }
-        }
-    }
-
-    /// Adds the values of two elements that differ, and their vehicle types. A value of all vehicle
-    /// types counts once, wherever the layouts hold it.
-    fn add_typed_cells(&mut self, element: Element<'_>, tables: [TypedRow<'_>; 2]) {
-        let [before, after] = tables.map(|of| of.types.of(of.row).collect::<BTreeSet<&str>>());
-        if before != after {
-            let texts = [&before, &after].map(|names| Some(type_list(names)));
-            self.add_set(element, "vehicle types", None, texts);
-        }
-        let common: Vec<&str> = before.intersection(&after).copied().collect();
-        let [a, b] = tables.map(|of| [of.columns, &of.types.attributes]);
-        for name in names(&[a[0], a[1], b[0], b[1]]) {
-            let texts = |of: Option<&str>| {
-                let cells = tables.map(|row| row.value(of, name));
-                let is_same = are_equal(cells, self.options.relative_tolerance);
-                (!is_same).then(|| [0, 1].map(|i| Some(tables[i].text(name, cells[i]?))))
-            };
-            let per_type: Vec<_> = common.iter().map(|&of| (of, texts(Some(of)))).collect();
-            let own = match per_type.split_first() {
-                None => texts(None),
-                Some(((_, first), rest)) if rest.iter().all(|(_, of)| of == first) => first.clone(),
-                Some(_) => {
-                    for (of, texts) in per_type {
-                        if let Some(texts) = texts {
-                            self.add_set(element, name, Some(of), texts);
-                        }
-                    }
-                    None
-                }
-            };
-            if let Some(texts) = own {
-                self.add_set(element, name, None, texts);
-            }
-        }
-    }
-
-    fn add_level(&mut self, element: Element<'_>, levels: [Option<u32>; 2]) {
-        let ids = [0, 1].map(|i| level_id(self.layouts[i], levels[i]).map(str::to_owned));
-        self.add_set(element, "level", None, ids);
-    }
-
-    fn nodes(&mut self) {
-        let ([a, b], pairs) = (self.layouts, self.nodes);
-        for (p, q) in pairs.pairs() {
-            let element = Element {
-                kind: ElementKind::Node,
-                id: a.nodes.id(p),
-                rows: [Some(p), Some(q)],
-            };
-            self.add_name(element, b.nodes.id(q));
-            self.add_position(
-                element,
-                [a.nodes.position_m(p), b.nodes.position_m(q)].map(Some),
-            );
-            self.add_level(element, [a.nodes.level(p), b.nodes.level(q)]);
-            let tables = [(&a.nodes, p), (&b.nodes, q)].map(|(nodes, row)| TypedRow {
-                columns: &nodes.attributes,
-                types: nodes.vehicle_types(),
-                row: row as usize,
-            });
-            self.add_typed_cells(element, tables);
-        }
-        self.add_unmatched(
-            ElementKind::Node,
-            pairs,
-            [&|row| a.nodes.id(row), &|row| b.nodes.id(row)],
-        );
-    }
-
-    fn stations(&mut self, pairs: &RowPairs) {
-        let [a, b] = self.layouts;
-        for (p, q) in pairs.pairs() {
-            let element = Element {
-                kind: ElementKind::Station,
-                id: a.stations.id(p),
-                rows: [Some(p), Some(q)],
-            };
-            self.add_name(element, b.stations.id(q));
-            self.add_position(
-                element,
-                [a.stations.position_m(p), b.stations.position_m(q)],
-            );
-            self.add_level(element, [a.stations.level(p), b.stations.level(q)]);
-            let nodes = a
-                .stations
-                .nodes(p)
-                .iter()
-                .map(|&node| self.nodes.partner(node));
-            if !nodes.eq(b.stations.nodes(q).iter().map(|&node| Some(node))) {
-                let texts =
-                    [(a, a.stations.nodes(p)), (b, b.stations.nodes(q))].map(|(of, rows)| {
-                        let ids: Vec<&str> = rows.iter().map(|&row| of.nodes.id(row)).collect();
-                        (!ids.is_empty()).then(|| ids.join(", "))
-                    });
-                self.add_set(element, "nodes", None, texts);
-            }
-            let tables = [
-                (&a.stations.attributes, p as usize),
-                (&b.stations.attributes, q as usize),
-            ];
-            self.add_cells(element, tables);
-        }
-        self.add_unmatched(
-            ElementKind::Station,
-            pairs,
-            [&|row| a.stations.id(row), &|row| b.stations.id(row)],
-        );
-    }
-
-    fn paths(&mut self, pairs: &RowPairs) {
-        let [a, b] = self.layouts;
-        let paired: Vec<(u32, u32)> = pairs.pairs().collect();
-        let paths_of = |(p, q): (u32, u32)| [a.paths.get(p as usize), b.paths.get(q as usize)];
-        let tolerance_m = self.options.tolerance_m;
-        let curves = paired
-            .par_iter()
-            .map(|&pair| curve_change(paths_of(pair), tolerance_m));
-        let curves: Vec<Option<Change>> = curves.collect();
-        for ((p, q), curve) in paired.into_iter().zip(curves) {
-            let paths = paths_of((p, q));
-            let element = Element {
-                kind: ElementKind::Path,
-                id: paths[0].id(),
-                rows: [Some(p), Some(q)],
-            };
-            self.add_name(element, paths[1].id());
-            if let Some(change) = curve {
-                self.add(element, change);
-            }
-            self.add_level(element, paths.map(PathRef::level));
-            let directions = paths.map(|path| {
-                Some(match path.direction() {
-                    Direction::Forward => "one way".to_owned(),
-                    Direction::Both => "two ways".to_owned(),
-                })
-            });
-            self.add_set(element, "direction", None, directions);
-            self.add_end(element, "start node", paths.map(PathRef::start_node));
-            self.add_end(element, "end node", paths.map(PathRef::end_node));
-            let tables = [(&a.paths, p), (&b.paths, q)].map(|(paths, row)| TypedRow {
-                columns: &paths.attributes,
-                types: paths.vehicle_types(),
-                row: row as usize,
-            });
-            self.add_typed_cells(element, tables);
-        }
-        let ids: [&dyn Fn(u32) -> &'a str; 2] = [&|row| a.paths.id(row as usize), &|row| {
-            b.paths.id(row as usize)
-        }];
-        self.add_unmatched(ElementKind::Path, pairs, ids);
-    }
-
-    fn add_end(&mut self, element: Element<'_>, name: &str, ends: [Option<u32>; 2]) {
-        let is_same = match ends {
-            [Some(p), q] => self.nodes.partner(p).is_some() && self.nodes.partner(p) == q,
-            [None, q] => q.is_none(),
-        };
-        if !is_same {
-            let id = |i: usize| Some(self.layouts[i].nodes.id(ends[i]?).to_owned());
-            self.add_set(element, name, None, [id(0), id(1)]);
+            found(Change::Set(ChangedValue::Level));
         }
     }
 }
@@ -373,20 +228,4 @@ fn shift_m([p, q]: [PathRef<'_>; 2], tolerance_m: f64) -> Option<f64> {
             .zip(&after)
             .all(|(&b, &a)| (b + shift).distance(a) <= tolerance_m);
     is_shifted.then(|| shift.norm())
-}
-
-/// A value with the unit of its column.
-fn text_of(table: &Attributes, name: &str, value: Value<'_>) -> String {
-    match table.get(name).and_then(|column| column.quantity) {
-        Some(quantity) => format!("{value} {}", quantity.unit()),
-        None => value.to_string(),
-    }
-}
-
-fn type_list(names: &BTreeSet<&str>) -> String {
-    if names.is_empty() {
-        return "all".to_owned();
-    }
-    let names: Vec<&str> = names.iter().copied().collect();
-    names.join(", ")
 }

@@ -21,15 +21,15 @@ pub(super) fn level_id(layout: &Layout, level: Option<u32>) -> Option<&str> {
 }
 
 /// Matches the nodes of two layouts.
-pub(super) fn match_nodes([a, b]: [&Layout; 2], options: &CompareOptions) -> RowPairs {
+pub(super) fn match_nodes<'a>([a, b]: [&'a Layout; 2], options: &CompareOptions) -> RowPairs {
     let mut pairs = RowPairs::by_id(
         a.nodes.len(),
         b.nodes.len(),
         |row| a.nodes.id(row),
         |row| b.nodes.id(row),
     );
-    let key = |layout: &Layout, row: u32| {
-        let level = level_id(layout, layout.nodes.level(row)).map(str::to_owned);
+    let key = |layout: &'a Layout, row: u32| {
+        let level = level_id(layout, layout.nodes.level(row));
         Some((place_key(layout.nodes.position_m(row), options), level))
     };
     pairs.match_rest(|row| key(a, row), |row| key(b, row));
@@ -37,15 +37,15 @@ pub(super) fn match_nodes([a, b]: [&Layout; 2], options: &CompareOptions) -> Row
 }
 
 /// Matches the stations of two layouts.
-pub(super) fn match_stations([a, b]: [&Layout; 2], options: &CompareOptions) -> RowPairs {
+pub(super) fn match_stations<'a>([a, b]: [&'a Layout; 2], options: &CompareOptions) -> RowPairs {
     let mut pairs = RowPairs::by_id(
         a.stations.len(),
         b.stations.len(),
         |row| a.stations.id(row),
         |row| b.stations.id(row),
     );
-    let key = |layout: &Layout, row: u32| {
-        let level = level_id(layout, layout.stations.level(row)).map(str::to_owned);
+    let key = |layout: &'a Layout, row: u32| {
+        let level = level_id(layout, layout.stations.level(row));
         let position = layout.stations.position_m(row)?;
         Some((place_key(position, options), level))
     };
@@ -54,14 +54,14 @@ pub(super) fn match_stations([a, b]: [&Layout; 2], options: &CompareOptions) -> 
 }
 
 /// Matches the paths of two layouts.
-pub(super) fn match_paths([a, b]: [&Layout; 2], options: &CompareOptions) -> RowPairs {
+pub(super) fn match_paths<'a>([a, b]: [&'a Layout; 2], options: &CompareOptions) -> RowPairs {
     let mut pairs = RowPairs::by_id(
         a.paths.len(),
         b.paths.len(),
         |row| a.paths.id(row as usize),
         |row| b.paths.id(row as usize),
     );
-    let key = |layout: &Layout, row: u32| {
+    let key = |layout: &'a Layout, row: u32| {
         let path = layout.paths.get(row as usize);
         let (start, end) = path.ends()?;
         let points: Vec<Point<f64>> = path
@@ -70,7 +70,7 @@ pub(super) fn match_paths([a, b]: [&Layout; 2], options: &CompareOptions) -> Row
             .collect();
         let middle = points[points.len() / 2];
         let places = [start, middle, end].map(|p| place_key(p, options));
-        Some((places, level_id(layout, path.level()).map(str::to_owned)))
+        Some((places, level_id(layout, path.level())))
     };
     pairs.match_rest(|row| key(a, row), |row| key(b, row));
     pairs

@@ -156,7 +156,7 @@ fn pairs<'a, T>(
         let ids = &ids[i];
         move |row: u32| ids[row as usize].as_str()
     };
-    let rows = RowPairs::of(a.len(), b.len(), text(0), text(1));
+    let rows = RowPairs::of(a.len(), b.len(), text(0), text(1), |_| true);
     for row in rows.removed() {
         found.add(what, || format!("`{}` is lost", ids[0][row as usize]));
     }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use guideway_spline::Point;
+
 use super::columns::{compare_cells, names};
 use super::curve_distance::are_near;
 use super::difference::{CompareOptions, Differences};
@@ -47,6 +49,21 @@ pub(super) fn compare(
         pair.compare_network(nodes, found);
         pair.compare_columns(&columns, options, found);
         pair.compare_styles(found);
+    }
+}
+
+/// Returns `true` if the curves of a row of both layouts have the same ends, in either direction,
+/// or one has none.
+pub(super) fn keeps_place([a, b]: [&Layout; 2], row: usize, within_m: f64) -> bool {
+    let are_near = |p: [Point<f64>; 2], q: [Point<f64>; 2]| {
+        let mut distances = p.iter().zip(q).map(|(p, q)| p.distance(q));
+        distances.all(|distance_m| distance_m <= within_m)
+    };
+    match (a.paths.get(row).ends(), b.paths.get(row).ends()) {
+        (Some((start, end)), Some((from, to))) => {
+            are_near([start, end], [from, to]) || are_near([start, end], [to, from])
+        }
+        _ => true,
     }
 }
 

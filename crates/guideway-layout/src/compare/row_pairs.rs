@@ -14,16 +14,19 @@ pub(super) struct RowPairs {
 }
 
 impl RowPairs {
-    /// Matches rows by identifier, in order among equal ones. If no identifier matches and the
-    /// tables have the same length, matches them by order.
+    /// Matches rows by identifier, in order among equal ones. If no identifier matches, the tables
+    /// have the same length, and most rows keep their place, matches them by order.
     pub(super) fn of<'a>(
         rows_a: usize,
         rows_b: usize,
         id_a: impl Fn(u32) -> &'a str,
         id_b: impl Fn(u32) -> &'a str,
+        keeps_place: impl Fn(u32) -> bool,
     ) -> Self {
         let by_id = Self::by_id(rows_a, rows_b, id_a, id_b);
-        if rows_a > 0 && rows_a == rows_b && by_id.added.len() == rows_b {
+        let is_renamed = rows_a > 0 && rows_a == rows_b && by_id.added.len() == rows_b;
+        let keep_place = || (0..rows_a as u32).filter(|&row| keeps_place(row)).count();
+        if is_renamed && 2 * keep_place() >= rows_a {
             return Self {
                 partners: (0..rows_a as u32).map(Some).collect(),
                 added: Vec::new(),
@@ -84,6 +87,36 @@ impl RowPairs {
         self.added.retain(|row| !matched.contains(row));
     }
 
+    /// Matches rows without a partner that are each other's only candidates.
+    pub(super) fn match_candidates(&mut self, mut candidates: Vec<(u32, u32)>) {
+        candidates.sort_unstable();
+        candidates.dedup();
+        let mut counts: [HashMap<u32, u32>; 2] = Default::default();
+        for &(a, b) in &candidates {
+            *counts[0].entry(a).or_default() += 1;
+            *counts[1].entry(b).or_default() += 1;
+        }
+        candidates.retain(|(a, b)| counts[0][a] == 1 && counts[1][b] == 1);
+        for &(a, b) in &candidates {
+            self.partners[a as usize] = Some(b);
+        }
+        let matched: HashSet<u32> = candidates.into_iter().map(|(_, b)| b).collect();
+        self.added.retain(|row| !matched.contains(row));
+    }
+
+    /// Returns `true` if rows of both tables have no partner.
+    pub(super) fn has_rest(&self) -> bool {
+        !self.added.is_empty() && self.removed().next().is_some()
+    }
+
+    /// Row in the first table of each of the `rows` rows of the second one.
+    pub(super) fn inverse(&self, rows: usize) -> Vec<Option<u32>> {
+        let mut inverse = vec![None; rows];
+        self.pairs()
+            .for_each(|(a, b)| inverse[b as usize] = Some(a));
+        inverse
+    }
+
     /// Pairs of rows, in the order of the first table.
     pub(super) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
         let rows = self.partners.iter().enumerate();
@@ -118,7 +151,12 @@ mod tests {
     use super::*;
 
     fn pairs(a: &[&str], b: &[&str]) -> RowPairs {
-        RowPairs::of(a.len(), b.len(), |r| a[r as usize], |r| b[r as usize])
+        at_places(a, b, &|_| true)
+    }
+
+    fn at_places(a: &[&str], b: &[&str], keeps_place: &dyn Fn(u32) -> bool) -> RowPairs {
+        let ids = [a, b].map(|ids| move |r: u32| ids[r as usize]);
+        RowPairs::of(a.len(), b.len(), ids[0], ids[1], keeps_place)
     }
 
     #[test]
@@ -137,6 +175,10 @@ mod tests {
         assert!(found.pairs().eq([(0, 0), (1, 1)]));
         assert!(!pairs(&["a", "b"], &["1", "b"]).is_by_order());
         assert!(!pairs(&["a"], &["1", "2"]).is_by_order());
+        let other = at_places(&["a", "b", "c"], &["1", "2", "3"], &|row| row == 0);
+        assert!(!other.is_by_order() && other.removed().count() == 3);
+        let moved = at_places(&["a", "b", "c"], &["1", "2", "3"], &|row| row != 0);
+        assert!(moved.is_by_order());
     }
 
     #[test]
@@ -149,5 +191,21 @@ mod tests {
         assert!(found.pairs().eq([(0, 1), (2, 0)]));
         assert!(found.removed().eq([1, 3]));
         assert_eq!(found.added(), [2, 3]);
+        // Row 3 has two candidates, row 1 one that has no other.
+        assert!(found.has_rest());
+        found.match_candidates(vec![(1, 2), (1, 2)]);
+        assert_eq!(found.inverse(4), [Some(2), Some(0), Some(1), None]);
+        found.match_candidates(vec![(3, 3)]);
+        assert!(!found.has_rest() && found.partner(3) == Some(3));
+    }
+
+    #[test]
+    fn several_candidates_match_none() {
+        let ids = |_| "";
+        let mut found = RowPairs::by_id(2, 0, ids, ids);
+        found.added = vec![0, 1];
+        found.match_candidates(vec![(0, 0), (1, 0)]);
+        found.match_candidates(vec![(0, 0), (0, 1)]);
+        assert_eq!((found.removed().count(), found.added()), (2, &[0, 1][..]));
     }
 }

@@ -1,10 +1,13 @@
 //! Edits of paths: sets columns, and the properties of single paths.
 
-use guideway_spline::Affine;
+use guideway_spline::{Affine, Point};
 
 use super::table::{NONE, Paths};
 use crate::optional_column::{column_for, set};
 use crate::{Direction, Geometry, OwnStyle, TypeEntries, WrittenCurve};
+
+/// Largest deviation of runs that are the same but for a shift, in meters: rounding errors.
+const SAME_SHIFT_M: f64 = 1e-9;
 
 impl Paths {
     /// Sets the stroke width of every path, in meters; NaN where the rule of the view decides.
@@ -112,6 +115,37 @@ impl Paths {
     /// Sets the curve of a path as its file wrote it, beside its runs.
     pub fn set_written_curve(&mut self, path: usize, curve: WrittenCurve) {
         self.written_curves.set(path, Some(curve.into()));
+    }
+
+    /// Copies the draw rank of a path to another one, and its written curve, if the runs of the
+    /// other one are the same but for a shift.
+    ///
+    /// # Panics
+    /// When `to` is not below [`Self::len`].
+    pub fn copy_look(&mut self, from: usize, to: usize) {
+        if let Some(ranks) = &mut self.rank {
+            ranks[to] = ranks[from];
+        }
+        if let Some(curve) = self.written_curves.shared(from)
+            && let Some(shift) = self.shift_m(from, to)
+        {
+            self.written_curves.set(to, Some(curve));
+            self.written_curves
+                .transform(to, Affine::translation(shift));
+        }
+    }
+
+    /// The shift from the runs of a path to those of another one; `None` if they differ otherwise.
+    fn shift_m(&self, from: usize, to: usize) -> Option<Point<f64>> {
+        let points = |path: usize| {
+            let runs = self.get(path).runs();
+            runs.flat_map(|run| run.iter().collect::<Vec<_>>())
+        };
+        let lengths = |path: usize| self.get(path).runs().map(|run| run.len());
+        let shift = points(to).next()? - points(from).next()?;
+        let mut pairs = points(from).zip(points(to));
+        let is_shifted = pairs.all(|(p, q)| (p + shift).distance(q) <= SAME_SHIFT_M);
+        (is_shifted && lengths(from).eq(lengths(to))).then_some(shift)
     }
 
     /// Sets the style of one path; properties that are `None` follow the rule of the view.

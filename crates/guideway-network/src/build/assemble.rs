@@ -4,7 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use guideway_layout::{Block, Direction, Layout, Member, NewPath, Provenance, Quantity, Value};
-use guideway_spline::bezier::reversed;
+use guideway_spline::bezier::{Bezier, reversed};
 use guideway_spline::{Runs, uniform};
 
 use super::drawn::Drawn;
@@ -40,13 +40,14 @@ pub(super) fn assemble(
     };
     let old_nodes = old_nodes(drawing, drawn, nodes);
     let rows = add_nodes(&mut layout, drawing, nodes, pieces, named, &old_nodes);
-    add_edges(&mut layout, drawing, drawn, pieces, &rows, options);
+    add_edges(&mut layout, drawing, drawn, (nodes, pieces), &rows, options);
     let of_old: HashMap<u32, u32> = old_nodes
         .iter()
         .filter_map(|(&node, &old)| Some((old, rows[node as usize]?)))
         .collect();
     add_stations(&mut layout, drawing, named, &rows, &of_old)?;
     add_blocks(&mut layout, drawing, drawn, pieces, &of_old);
+    report.leave_nodes(drawing, |row| of_old.contains_key(&row));
     report.nodes = layout.nodes.len() as u64;
     report.edges = layout.paths.len() as u64;
     let two_way = layout
@@ -132,18 +133,19 @@ fn add_edges(
     layout: &mut Layout,
     drawing: &Layout,
     drawn: &Drawn,
-    pieces: &[Piece],
-    nodes: &[Option<u32>],
+    (nodes, pieces): (&Nodes, &[Piece]),
+    node_rows: &[Option<u32>],
     options: &BuildOptions,
 ) {
-    let mut counts: HashMap<u32, [u32; 2]> = HashMap::with_capacity(pieces.len());
-    let source_of = |piece: &Piece| drawn.curves[piece.curve as usize].source;
+    // The edges of each line, and those named so far.
+    let mut counts = vec![[0; 2]; drawing.paths.len()];
     for piece in pieces {
-        counts.entry(source_of(piece)).or_default()[0] += 1;
+        counts[drawn.curves[piece.curve as usize].source as usize][0] += 1;
     }
-    let taken: HashSet<&str> = drawing.paths.iter().map(|path| path.id()).collect();
+    let ids = drawing.paths.iter().map(|path| path.id());
+    let taken: HashSet<&str> = ids.filter(|id| is_numbered(id)).collect();
     let (mut sources, mut entries) = (Vec::with_capacity(pieces.len()), Vec::new());
-    let mut runs = Runs::default();
+    let (mut runs, mut beziers) = (Runs::default(), Vec::new());
     let ranks = drawing.paths.rank();
     let mut own_ranks = Vec::new();
     for piece in pieces {
@@ -152,8 +154,13 @@ fn add_edges(
         let old = drawing.paths.get(source);
         let rule = curve.rule.map(|rule| &options.layers[rule as usize]);
         let (direction, is_reversed) = direction(rule, old.direction(), options.two_way);
-        let id = edge_id(old.id(), counts.entry(curve.source).or_default(), &taken);
-        copy_curve(piece, old, is_reversed, &mut runs);
+        let id = edge_id(old.id(), &mut counts[source], &taken);
+        if piece.is_whole && !is_reversed && old.runs().len() == 1 {
+            old.copy_runs(&mut runs);
+        } else {
+            piece.copy_beziers(drawn, nodes, &mut beziers);
+            set_runs(&mut runs, &beziers, is_reversed);
+        }
         let own: Vec<&str> = rule
             .map_or(&[][..], |rule| &rule.vehicle_types[..])
             .iter()
@@ -164,7 +171,7 @@ fn add_edges(
             true => old_types.of(source).collect(),
             false => own.clone(),
         };
-        let ends = [piece.start, piece.end].map(|node| nodes[node as usize]);
+        let ends = [piece.start, piece.end].map(|node| node_rows[node as usize]);
         let row = layout.paths.push(&NewPath {
             id: &id,
             runs: &runs,
@@ -179,7 +186,7 @@ fn add_edges(
             .set_own_style(row, drawing.paths.own_style(source));
         if piece.is_whole
             && !is_reversed
-            && counts[&curve.source][0] == 1
+            && counts[source][0] == 1
             && let Some(written) = drawing.paths.written_curve(source)
         {
             layout.paths.set_written_curve(row, written.clone());
@@ -200,24 +207,15 @@ fn add_edges(
     set_properties(layout, drawn, pieces, options);
 }
 
-/// The runs of a piece; those of the drawing where nothing changed.
-fn copy_curve(
-    piece: &Piece,
-    old: guideway_layout::PathRef<'_>,
-    is_reversed: bool,
-    runs: &mut Runs,
-) {
-    if piece.is_whole && !is_reversed && old.runs().len() == 1 {
-        old.copy_runs(runs);
-        return;
-    }
+/// Replaces runs by those of cubics.
+fn set_runs(runs: &mut Runs, beziers: &[Bezier], is_reversed: bool) {
     runs.clear();
     if is_reversed {
-        for bezier in piece.beziers.iter().rev() {
+        for bezier in beziers.iter().rev() {
             runs.push_segment(&uniform::from_bezier(&reversed(bezier)));
         }
     } else {
-        for bezier in &piece.beziers {
+        for bezier in beziers {
             runs.push_segment(&uniform::from_bezier(bezier));
         }
     }
@@ -253,6 +251,12 @@ fn direction(rule: Option<&LayerRule>, old: Direction, two_way: bool) -> (Direct
         None if two_way => (Direction::Both, false),
         None => (old, false),
     }
+}
+
+/// Returns `true` if an identifier may be that of a line with a number.
+fn is_numbered(id: &str) -> bool {
+    let number = id.rsplit_once('.').map(|(_, number)| number);
+    number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// The identifier of a line, with a number if it became several edges. `counts` holds the number of

@@ -7,7 +7,7 @@ use guideway_spline::{Overlap, Point, intersect};
 use rayon::prelude::*;
 
 use super::box_index::{BoxIndex, Part};
-use super::drawn::Drawn;
+use super::drawn::{Curve, Drawn};
 use super::grid::Grid;
 use super::junctions::Cut;
 use super::weld::Nodes;
@@ -15,6 +15,9 @@ use super::{BuildError, BuildOptions, BuildReport};
 
 /// Pairs of cubics with overlapping boxes that may be compared, per piece that is allowed.
 const PAIRS_PER_PIECE: u64 = 20;
+
+/// Curves that a task of a thread compares with others.
+const TASK_CURVES: usize = 256;
 
 /// A place where two curves cross.
 struct Crossing {
@@ -37,6 +40,7 @@ pub(super) fn find(
         return Err(pieces(options));
     }
     let reach_m = options.weld_m.max(SAME_M);
+    cuts.reserve(2 * found.len());
     let mut grid = Grid::new(reach_m, nodes.positions_m.len());
     nodes.positions_m.iter().for_each(|&p| grid.add(p));
     for crossing in found {
@@ -76,8 +80,7 @@ fn crossings(
 ) -> Result<(Vec<Crossing>, u64), BuildError> {
     let limit = PAIRS_PER_PIECE * options.max_pieces as u64;
     let (pairs, found, overlaps) = (AtomicU64::new(0), AtomicU64::new(0), AtomicU64::new(0));
-    let of_curve = |curve: usize| {
-        let mut own = Vec::new();
+    let of_curve = |curve: usize, own: &mut Vec<Crossing>| {
         let beziers = drawn.curves[curve].beziers.iter().enumerate();
         for (row, bezier) in beziers {
             let part = Part {
@@ -96,7 +99,7 @@ fn crossings(
             others.sort_unstable();
             for other in others {
                 let before = own.len();
-                if compare([part, other], drawn, nodes, options, &mut own).is_err() {
+                if compare([part, other], drawn, nodes, options, own).is_err() {
                     overlaps.fetch_add(1, Ordering::Relaxed);
                 }
                 let new = (own.len() - before) as u64;
@@ -106,11 +109,20 @@ fn crossings(
                 }
             }
         }
+        Ok(())
+    };
+    let of_task = |(task, curves): (usize, &[Curve])| {
+        let mut own = Vec::new();
+        let first = task * TASK_CURVES;
+        let mut rows = first..first + curves.len();
+        rows.try_for_each(|curve| of_curve(curve, &mut own))?;
         Ok(own)
     };
-    let curves = 0..drawn.curves.len();
-    let lists: Result<Vec<_>, _> = curves.into_par_iter().map(of_curve).collect();
-    let crossings = lists?.into_iter().flatten().collect();
+    let tasks = drawn.curves.par_chunks(TASK_CURVES).enumerate();
+    let lists: Result<Vec<Vec<Crossing>>, BuildError> = tasks.map(of_task).collect();
+    let lists = lists?;
+    let mut crossings = Vec::with_capacity(lists.iter().map(Vec::len).sum());
+    lists.into_iter().for_each(|list| crossings.extend(list));
     Ok((crossings, overlaps.into_inner()))
 }
 

@@ -5,6 +5,7 @@ use guideway_spline::bezier::{SAME_M, nearest, split};
 use rayon::prelude::*;
 
 use super::box_index::{BoxIndex, Part};
+use super::clusters::Clusters;
 use super::drawn::{Curve, Drawn, polygon_m};
 use super::weld::{Nodes, WALK};
 use super::{BuildError, BuildOptions, BuildReport};
@@ -32,12 +33,12 @@ pub(super) fn find(
     drawn: &Drawn,
     index: &BoxIndex,
     options: &BuildOptions,
-    nodes: &mut Nodes,
+    (nodes, clusters): (&mut Nodes, &Clusters),
     cuts: &mut Vec<Cut>,
     report: &mut BuildReport,
 ) -> Result<(), BuildError> {
     let reach_m = options.weld_m.max(SAME_M);
-    let of_node = |node: u32| feet(node, drawn, index, nodes, reach_m);
+    let of_node = |node: u32| feet(node, drawn, index, (nodes, clusters), reach_m);
     let rows = 0..nodes.positions_m.len() as u32;
     let feet: Vec<Foot> = rows.into_par_iter().flat_map_iter(of_node).collect();
     let limit = options.max_pieces;
@@ -69,7 +70,7 @@ fn feet(
     node: u32,
     drawn: &Drawn,
     index: &BoxIndex,
-    nodes: &Nodes,
+    (nodes, clusters): (&Nodes, &Clusters),
     reach_m: f64,
 ) -> impl Iterator<Item = Foot> {
     let at = nodes.positions_m[node as usize];
@@ -89,7 +90,7 @@ fn feet(
             position_m: found.point,
             distance_m: found.distance,
         };
-        if found.distance > reach_m || !is_junction(&foot, drawn, nodes, reach_m) {
+        if found.distance > reach_m || !is_junction(&foot, drawn, (nodes, clusters), reach_m) {
             continue;
         }
         match best.last_mut() {
@@ -106,7 +107,12 @@ fn feet(
 
 /// Returns `true` if a foot is in the middle of its curve, and not beside an end that is the same
 /// node, or that short lines join with it.
-fn is_junction(foot: &Foot, drawn: &Drawn, nodes: &Nodes, reach_m: f64) -> bool {
+fn is_junction(
+    foot: &Foot,
+    drawn: &Drawn,
+    (nodes, clusters): (&Nodes, &Clusters),
+    reach_m: f64,
+) -> bool {
     let curve = &drawn.curves[foot.part.curve as usize];
     let at = nodes.positions_m[foot.node as usize];
     (0..2).all(|side| {
@@ -123,10 +129,7 @@ fn is_junction(foot: &Foot, drawn: &Drawn, nodes: &Nodes, reach_m: f64) -> bool 
             return false;
         }
         let walk_m = WALK * reach_m;
-        to_end_m > walk_m
-            || !nodes
-                .clusters
-                .has_walk(nodes.ends[foot.node as usize], end, walk_m)
+        to_end_m > walk_m || !clusters.has_walk(nodes.ends[foot.node as usize], end, walk_m)
     })
 }
 

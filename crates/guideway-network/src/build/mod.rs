@@ -71,12 +71,14 @@ pub fn build(drawing: &Layout, options: &BuildOptions) -> Result<Network, BuildE
     if let Some(tolerance_m) = options.smooth_m {
         smooth::smooth(&mut drawn, tolerance_m, &mut report);
     }
-    let mut nodes = weld::weld(&drawn, options, &mut report)?;
+    let (mut nodes, clusters) = weld::weld(&drawn, options, &mut report)?;
     let index = BoxIndex::of(&drawn);
     let mut cuts = Vec::new();
     if options.split_junctions {
-        junctions::find(&drawn, &index, options, &mut nodes, &mut cuts, &mut report)?;
+        let nodes = (&mut nodes, &clusters);
+        junctions::find(&drawn, &index, options, nodes, &mut cuts, &mut report)?;
     }
+    drop(clusters);
     if options.split_crossings {
         crossings::find(&drawn, &index, options, &mut nodes, &mut cuts, &mut report)?;
     }
@@ -89,6 +91,7 @@ pub fn build(drawing: &Layout, options: &BuildOptions) -> Result<Network, BuildE
         &mut cuts,
         &mut report,
     )?;
+    drop(index);
     let pieces = pieces::cut(&drawn, &nodes, cuts, options, &mut report)?;
     let layout = assemble::assemble(
         drawing,

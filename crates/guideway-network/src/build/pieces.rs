@@ -1,9 +1,8 @@
 //! Pieces: cuts curves at their cuts, and drops pieces that vanish or are drawn twice.
 
-use std::collections::HashMap;
-
 use guideway_spline::Point;
 use guideway_spline::bezier::{Bezier, SAME_M, move_end, move_start, point, split};
+use rayon::prelude::*;
 
 use super::drawn::{Curve, Drawn, polygon_m};
 use super::junctions::Cut;
@@ -13,16 +12,81 @@ use super::{BuildError, BuildOptions, BuildReport};
 /// Pieces between the same two nodes that are compared with a new one.
 const MAX_COMPARED: usize = 16;
 
-/// A part of a curve between two nodes.
-#[derive(Clone, Debug)]
+/// Curves that a task of a thread cuts.
+const TASK_CURVES: usize = 4096;
+
+/// A place on a curve.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    bezier: u32,
+    t: f64,
+}
+
+/// A part of a curve between two nodes. A drawing has many more pieces than lines, so a piece has
+/// the places of its ends, and its cubics are computed where they are needed.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     /// Row of its curve.
     pub(super) curve: u32,
-    pub(super) beziers: Vec<Bezier>,
     pub(super) start: u32,
     pub(super) end: u32,
     /// The curve was neither cut nor moved.
     pub(super) is_whole: bool,
+    from: Place,
+    to: Place,
+}
+
+impl Piece {
+    /// Replaces the cubics in `out` by those of the piece, whose ends are at its nodes: no
+    /// cubic if it has no length.
+    pub(super) fn copy_beziers(&self, drawn: &Drawn, nodes: &Nodes, out: &mut Vec<Bezier>) {
+        let curve = &drawn.curves[self.curve as usize];
+        out.clear();
+        for row in self.from.bezier..=self.to.bezier {
+            let is_at = |place: Place| row == place.bezier;
+            let from = if is_at(self.from) { self.from.t } else { 0.0 };
+            let to = if is_at(self.to) { self.to.t } else { 1.0 };
+            let part = part(&curve.beziers[row as usize], from, to);
+            if polygon_m(&part) > SAME_M {
+                out.push(part);
+            }
+        }
+        let [start, end] = [self.start, self.end].map(|node| nodes.positions_m[node as usize]);
+        if let Some(first) = out.first_mut()
+            && first[0] != start
+        {
+            move_start(first, start);
+        }
+        if let Some(last) = out.last_mut()
+            && last[3] != end
+        {
+            move_end(last, end);
+        }
+    }
+}
+
+/// The part of a cubic between two parameters.
+fn part(bezier: &Bezier, from: f64, to: f64) -> Bezier {
+    let rest = match from > 0.0 {
+        true => split(bezier, from)[1],
+        false => *bezier,
+    };
+    if to >= 1.0 {
+        return rest;
+    }
+    // The parameter within the rest of the cubic.
+    let t = (to - from) / (1.0 - from);
+    split(&rest, t.clamp(0.0, 1.0))[0]
+}
+
+/// The pieces of some curves.
+#[derive(Default)]
+struct Made {
+    pieces: Vec<Piece>,
+    /// Pieces that were shorter than the weld distance.
+    vanished: u64,
+    /// Curves of more than one piece.
+    cut: u64,
 }
 
 pub(super) fn cut(
@@ -36,110 +100,120 @@ pub(super) fn cut(
         let limit = options.max_pieces;
         return Err(BuildError::Pieces { limit });
     }
-    cuts.sort_by(|a, b| a.part.cmp(&b.part).then(a.t.total_cmp(&b.t)));
-    let reach_m = options.weld_m.max(SAME_M);
-    let mut cuts = cuts.into_iter().peekable();
-    let mut pieces = Vec::with_capacity(drawn.curves.len() + cuts.len());
-    for (row, curve) in drawn.curves.iter().enumerate() {
-        let own = std::iter::from_fn(|| cuts.next_if(|cut| cut.part.curve as usize == row));
-        let own: Vec<Cut> = own.collect();
-        let before = pieces.len();
-        cut_curve(row as u32, curve, &own, nodes, &mut pieces);
-        let made = pieces.len() - before;
-        let vanishes = |piece: &Piece| {
-            let length_m: f64 = piece.beziers.iter().map(polygon_m).sum();
-            piece.start == piece.end && length_m <= WALK * reach_m
-        };
-        let vanished = pieces.extract_if(before.., |piece| vanishes(piece)).count();
-        report.vanished += vanished as u64;
-        report.cut += u64::from(made - vanished > 1);
+    cuts.par_sort_by(|a, b| a.part.cmp(&b.part).then(a.t.total_cmp(&b.t)));
+    let of_task = |(task, curves): (usize, &[Curve])| {
+        let first = (task * TASK_CURVES) as u32;
+        let mut cuts = &cuts[cuts.partition_point(|cut| cut.part.curve < first)..];
+        let (mut made, mut beziers) = (Made::default(), Vec::new());
+        for (row, curve) in (first..).zip(curves) {
+            let own = cuts.partition_point(|cut| cut.part.curve == row);
+            let (own, rest) = cuts.split_at(own);
+            cuts = rest;
+            cut_curve(
+                row,
+                curve,
+                own,
+                (drawn, nodes, options),
+                &mut beziers,
+                &mut made,
+            );
+        }
+        made
+    };
+    let tasks = drawn.curves.par_chunks(TASK_CURVES).enumerate();
+    let made: Vec<Made> = tasks.map(of_task).collect();
+    drop(cuts);
+    let mut pieces = Vec::with_capacity(made.iter().map(|made| made.pieces.len()).sum());
+    for made in made {
+        pieces.extend(made.pieces);
+        report.vanished += made.vanished;
+        report.cut += made.cut;
     }
-    drop_repeated(drawn, options, &mut pieces, report);
+    drop_repeated(drawn, nodes, options, &mut pieces, report);
     Ok(pieces)
 }
 
 /// Appends the pieces of one curve, whose cuts are in order.
-fn cut_curve(row: u32, curve: &Curve, cuts: &[Cut], nodes: &Nodes, pieces: &mut Vec<Piece>) {
-    let new = |start: u32| Piece {
-        curve: row,
-        beziers: Vec::new(),
-        start,
-        end: start,
-        is_whole: false,
-    };
-    let mut cuts = cuts.iter().peekable();
-    let mut piece = new(nodes.of_end[2 * row as usize]);
-    for (number, bezier) in curve.beziers.iter().enumerate() {
-        let (mut rest, mut done) = (*bezier, 0.0);
-        while let Some(cut) = cuts.next_if(|cut| cut.part.bezier as usize == number) {
-            // The parameter within the rest of the cubic.
-            let t = if done < 1.0 {
-                (cut.t - done) / (1.0 - done)
-            } else {
-                0.0
-            };
-            let [left, right] = split(&rest, t.clamp(0.0, 1.0));
-            (rest, done) = (right, cut.t);
-            if polygon_m(&left) > SAME_M {
-                piece.beziers.push(left);
-            }
-            piece.end = cut.node;
-            push(std::mem::replace(&mut piece, new(cut.node)), nodes, pieces);
+fn cut_curve(
+    row: u32,
+    curve: &Curve,
+    cuts: &[Cut],
+    (drawn, nodes, options): (&Drawn, &Nodes, &BuildOptions),
+    beziers: &mut Vec<Bezier>,
+    made: &mut Made,
+) {
+    let place = |bezier, t| Place { bezier, t };
+    let [first, last] = [0, 1].map(|side| nodes.of_end[2 * row as usize + side]);
+    let end = place(curve.beziers.len() as u32 - 1, 1.0);
+    let stops = cuts
+        .iter()
+        .map(|cut| (place(cut.part.bezier, cut.t), cut.node));
+    let (mut start, mut from, mut count) = (first, place(0, 0.0), 0);
+    for (to, node) in stops.chain([(end, last)]) {
+        let mut piece = Piece {
+            curve: row,
+            start: std::mem::replace(&mut start, node),
+            end: node,
+            is_whole: false,
+            from: std::mem::replace(&mut from, to),
+            to,
+        };
+        piece.copy_beziers(drawn, nodes, beziers);
+        if beziers.is_empty() {
+            continue;
         }
-        if polygon_m(&rest) > SAME_M {
-            piece.beziers.push(rest);
+        let length_m: f64 = beziers.iter().map(polygon_m).sum();
+        if piece.start == piece.end && length_m <= WALK * options.weld_m.max(SAME_M) {
+            made.vanished += 1;
+            continue;
         }
+        let at = |node: u32| nodes.positions_m[node as usize];
+        piece.is_whole = !curve.is_changed
+            && beziers.len() == curve.beziers.len()
+            && [at(piece.start), at(piece.end)] == [curve.end(0), curve.end(1)];
+        count += 1;
+        made.pieces.push(piece);
     }
-    piece.end = nodes.of_end[2 * row as usize + 1];
-    let is_uncut = piece.beziers.len() == curve.beziers.len();
-    let ends_m = [piece.start, piece.end].map(|node| nodes.positions_m[node as usize]);
-    let is_whole = is_uncut && !curve.is_changed;
-    piece.is_whole = is_whole && (0..2).all(|side| ends_m[side as usize] == curve.end(side));
-    push(piece, nodes, pieces);
-}
-
-/// Appends a piece whose ends are at its nodes; a piece without length has none.
-fn push(mut piece: Piece, nodes: &Nodes, pieces: &mut Vec<Piece>) {
-    let position = |node: u32| nodes.positions_m[node as usize];
-    let (start, end) = (position(piece.start), position(piece.end));
-    if let Some(first) = piece.beziers.first_mut()
-        && first[0] != start
-    {
-        move_start(first, start);
-    }
-    if let Some(last) = piece.beziers.last_mut()
-        && last[3] != end
-    {
-        move_end(last, end);
-    }
-    if !piece.beziers.is_empty() {
-        pieces.push(piece);
-    }
+    made.cut += u64::from(count > 1);
 }
 
 /// Drops pieces that lie on another one between the same nodes, under the same rule.
 fn drop_repeated(
     drawn: &Drawn,
+    nodes: &Nodes,
     options: &BuildOptions,
     pieces: &mut Vec<Piece>,
     report: &mut BuildReport,
 ) {
     let tolerance_m = options.weld_m.max(10.0 * SAME_M);
-    let mut known: HashMap<(u32, u32), Vec<u32>> = HashMap::with_capacity(pieces.len());
+    let rows = pieces.par_iter().enumerate().map(|(row, piece)| {
+        let (a, b) = (piece.start, piece.end);
+        (a.min(b), a.max(b), row as u32)
+    });
+    let mut by_ends: Vec<(u32, u32, u32)> = rows.collect();
+    by_ends.par_sort_unstable();
     let mut is_repeated = vec![false; pieces.len()];
-    for (row, piece) in pieces.iter().enumerate() {
-        let key = (piece.start.min(piece.end), piece.start.max(piece.end));
-        let others = known.entry(key).or_default();
-        let rule = |piece: &Piece| drawn.curves[piece.curve as usize].rule;
-        let same = others.iter().take(MAX_COMPARED).any(|&other| {
-            let other = &pieces[other as usize];
-            let is_same_way = options.two_way || other.start == piece.start;
-            rule(other) == rule(piece) && is_same_way && is_same_curve(other, piece, tolerance_m)
-        });
-        if same {
-            is_repeated[row] = true;
-        } else {
-            others.push(row as u32);
+    let (mut beziers, mut others) = (Vec::new(), Vec::new());
+    for group in by_ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        if group.len() == 1 {
+            continue;
+        }
+        others.clear();
+        for &(_, _, row) in group {
+            let piece = pieces[row as usize];
+            piece.copy_beziers(drawn, nodes, &mut beziers);
+            let samples = [0.25, 0.5, 0.75].map(|share| at_share(&beziers, share));
+            let rule = |piece: Piece| drawn.curves[piece.curve as usize].rule;
+            let is_same = |(other, of_other): &(Piece, [Point<f64>; 3])| {
+                let is_same_way = options.two_way || other.start == piece.start;
+                rule(*other) == rule(piece)
+                    && is_same_way
+                    && is_same_curve(of_other, &samples, tolerance_m)
+            };
+            match others.iter().take(MAX_COMPARED).any(is_same) {
+                true => is_repeated[row as usize] = true,
+                false => others.push((piece, samples)),
+            }
         }
     }
     let mut flags = is_repeated.iter();
@@ -147,20 +221,10 @@ fn drop_repeated(
     report.repeated += is_repeated.iter().filter(|repeated| **repeated).count() as u64;
 }
 
-/// Compares two pieces at three places between their ends.
-fn is_same_curve(a: &Piece, b: &Piece, tolerance_m: f64) -> bool {
-    let samples = |piece: &Piece| [0.25, 0.5, 0.75].map(|share| at_share(&piece.beziers, share));
-    let (of_a, mut of_b) = (samples(a), samples(b));
-    let is_near = |of_b: &[Point<f64>; 3]| {
-        of_a.iter()
-            .zip(of_b)
-            .all(|(p, q)| p.distance(*q) <= tolerance_m)
-    };
-    if is_near(&of_b) {
-        return true;
-    }
-    of_b.reverse();
-    is_near(&of_b)
+/// Compares two pieces at three places between their ends, in both directions.
+fn is_same_curve(a: &[Point<f64>; 3], b: &[Point<f64>; 3], tolerance_m: f64) -> bool {
+    let is_near = |(p, q): (&Point<f64>, &Point<f64>)| p.distance(*q) <= tolerance_m;
+    a.iter().zip(b).all(is_near) || a.iter().zip(b.iter().rev()).all(is_near)
 }
 
 /// The point at a share of the length, by the control polygons.

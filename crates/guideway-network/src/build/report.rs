@@ -1,5 +1,8 @@
 //! [`BuildReport`]: the account of a build.
 
+use std::collections::BTreeMap;
+
+use guideway_layout::Layout;
 use guideway_spline::Point;
 
 /// A note that became neither a station nor a name.
@@ -52,6 +55,10 @@ pub struct BuildReport {
     pub two_way: u64,
     /// Stations, those of the drawing included.
     pub stations: u64,
+    /// Nodes of the drawing that are none of the network: welded to others, or at no edge.
+    pub nodes_left: u64,
+    /// Values that these nodes had, by property.
+    pub values_left: BTreeMap<String, u64>,
     /// Nodes that a note names.
     pub named: u64,
     /// Notes that are farther from every line than the options allow, up to 100 of them.
@@ -73,8 +80,27 @@ impl BuildReport {
         }
     }
 
+    /// Records the nodes of the drawing that are none of the network, with their values.
+    pub(super) fn leave_nodes(&mut self, drawing: &Layout, is_kept: impl Fn(u32) -> bool) {
+        let (nodes, types) = (&drawing.nodes, drawing.nodes.vehicle_types());
+        let left = (0..nodes.len() as u32).filter(|&row| !is_kept(row));
+        for row in left.map(|row| row as usize) {
+            self.nodes_left += 1;
+            let own = nodes.attributes.iter();
+            let own = own.map(|column| (column, usize::from(column.values.get(row).is_some())));
+            let of_types = types.attributes.iter().map(|column| {
+                let entries = types.entries(row);
+                let values = entries.filter(|&entry| column.values.get(entry).is_some());
+                (column, values.count())
+            });
+            for (column, count) in own.chain(of_types).filter(|(_, count)| *count > 0) {
+                *self.values_left.entry(column.name.clone()).or_default() += count as u64;
+            }
+        }
+    }
+
     /// Name and number of each thing that was done or left, in the order of the work.
-    pub fn counts(&self) -> [(&'static str, u64); 18] {
+    pub fn counts(&self) -> [(&'static str, u64); 19] {
         [
             ("paths", self.paths),
             ("paths_left", self.paths_left),
@@ -90,6 +116,7 @@ impl BuildReport {
             ("cut", self.cut),
             ("vanished", self.vanished),
             ("repeated", self.repeated),
+            ("nodes_left", self.nodes_left),
             ("nodes", self.nodes),
             ("edges", self.edges),
             ("two_way", self.two_way),

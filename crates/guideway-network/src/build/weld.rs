@@ -4,10 +4,9 @@
 //! their order. Two ends stay apart if short lines lead from one to the other: see
 //! [`Clusters::has_walk`].
 
-use std::collections::HashMap;
-
 use guideway_spline::Point;
 use guideway_spline::bezier::SAME_M;
+use rayon::prelude::*;
 
 use super::clusters::Clusters;
 use super::drawn::Drawn;
@@ -28,7 +27,6 @@ pub(super) struct Nodes {
     pub(super) levels: Vec<Option<u32>>,
     /// An end of each node; nodes from cuts have none.
     pub(super) ends: Vec<u32>,
-    pub(super) clusters: Clusters,
 }
 
 impl Nodes {
@@ -44,7 +42,7 @@ pub(super) fn weld(
     drawn: &Drawn,
     options: &BuildOptions,
     report: &mut BuildReport,
-) -> Result<Nodes, BuildError> {
+) -> Result<(Nodes, Clusters), BuildError> {
     let curves = &drawn.curves;
     if curves.len() > options.max_pieces {
         let limit = options.max_pieces;
@@ -61,30 +59,32 @@ pub(super) fn weld(
             clusters.join(a, b);
         }
     }
-    Ok(number(clusters, &position, &level, report))
+    Ok((number(&clusters, &position, &level, report), clusters))
 }
 
 /// Joins ends at the same place, and returns the first end of each place.
 fn join_equal(
     ends: u32,
-    position: &impl Fn(u32) -> Point<f64>,
-    level: &impl Fn(u32) -> Option<u32>,
+    position: &(impl Fn(u32) -> Point<f64> + Sync),
+    level: &(impl Fn(u32) -> Option<u32> + Sync),
     clusters: &mut Clusters,
 ) -> Vec<u32> {
-    let mut firsts = Vec::new();
-    let mut places: HashMap<_, u32> = HashMap::with_capacity(ends as usize);
-    for end in 0..ends {
+    let place = |end: u32| {
         let cell = |v: f64| (v / SAME_M).round() as i64;
         let p = position(end);
-        let first = *places
-            .entry((cell(p.x), cell(p.y), level(end)))
-            .or_insert(end);
-        if first == end {
-            firsts.push(end);
-        } else {
+        (cell(p.x), cell(p.y), level(end), end)
+    };
+    let mut places: Vec<_> = (0..ends).into_par_iter().map(place).collect();
+    places.par_sort_unstable();
+    let mut firsts = Vec::new();
+    for same in places.chunk_by(|a, b| (a.0, a.1, a.2) == (b.0, b.1, b.2)) {
+        let first = same[0].3;
+        firsts.push(first);
+        for &(.., end) in &same[1..] {
             clusters.join(first, end);
         }
     }
+    firsts.sort_unstable();
     firsts
 }
 
@@ -134,7 +134,7 @@ fn near_pairs(
 /// Numbers the nodes in the order of their first ends, and places each at the end that is nearest
 /// to the mean of its ends.
 fn number(
-    clusters: Clusters,
+    clusters: &Clusters,
     position: &impl Fn(u32) -> Point<f64>,
     level: &impl Fn(u32) -> Option<u32>,
     report: &mut BuildReport,
@@ -146,14 +146,13 @@ fn number(
         positions_m: Vec::new(),
         levels: Vec::new(),
         ends: Vec::new(),
-        clusters,
     };
     for end in 0..ends {
         if nodes.of_end[end as usize] != NONE {
             continue;
         }
         let node = nodes.positions_m.len() as u32;
-        let members: Vec<u32> = nodes.clusters.members(end).collect();
+        let members: Vec<u32> = clusters.members(end).collect();
         let at = middle(&members, position);
         let far_m = members.iter().map(|&m| position(m).distance(at));
         let far_m = far_m.fold(0.0, f64::max);

@@ -321,6 +321,32 @@ fn lines_drawn_twice_and_dots_are_left() {
 }
 
 #[test]
+fn nodes_that_a_weld_leaves_are_listed_with_their_values() {
+    let mut layout = drawing(&[[0.0, 0.0, 10.0, 0.0], [10.002, 0.0, 20.0, 0.0]]);
+    for (row, x) in [0.0, 10.0, 10.002, 20.0, 50.0].into_iter().enumerate() {
+        let at = Point::new(x, 0.0);
+        let types: &[&str] = if row == 2 { &["tug"] } else { &[] };
+        layout
+            .nodes
+            .push_for_types(&format!("n{row}"), at, None, types);
+        let nodes = &mut layout.nodes.attributes;
+        nodes.set(row, "use", Value::Text("stop"));
+    }
+    let of_types = &mut layout.nodes.vehicle_types_mut().attributes;
+    of_types.set(0, "theta", Value::Float(1.0));
+    layout.paths.set_nodes(0, Some(0), Some(1));
+    layout.paths.set_nodes(1, Some(2), Some(3));
+    let made = network(&layout, &split());
+    // One of the two at the gap, and the one at no line.
+    assert_eq!((made.layout.nodes.len(), made.report.nodes_left), (3, 2));
+    let values = made.report.values_left.iter();
+    let values: Vec<_> = values
+        .map(|(name, count)| (name.as_str(), *count))
+        .collect();
+    assert_eq!(values, [("theta", 1), ("use", 2)]);
+}
+
+#[test]
 fn limits_stop_with_their_value() {
     let grid = |n: u32| -> Vec<[f64; 4]> {
         let lines = (0..n).map(f64::from);

@@ -149,6 +149,7 @@ impl Scene {
                 layout.paths.attributes.copy_row(from as usize, row);
                 let entries = layout.paths.vehicle_types_mut();
                 entries.copy_values(from as usize, row);
+                layout.paths.copy_look(from as usize, row);
             }
         }
         let rows = self.row_count();

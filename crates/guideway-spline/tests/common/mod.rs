@@ -1,7 +1,7 @@
 //! Random curves, dense sampling and the distance between two sampled curves.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
-use guideway_spline::{Nurbs, Point, knots, uniform};
+use guideway_spline::{Nurbs, Point, Runs, knots, uniform};
 use proptest::prelude::*;
 
 pub(crate) type P = Point<f64>;
@@ -141,4 +141,32 @@ pub(crate) fn run() -> impl Strategy<Value = Vec<P>> {
         let by = Point::new(by, -by);
         points.into_iter().map(|p| p + by).collect()
     })
+}
+
+/// All segments of all runs.
+pub(crate) fn segments(runs: &Runs) -> Vec<[P; 4]> {
+    let of_run = |run: &[P]| {
+        (0..run.len() - 3)
+            .map(|i| *uniform::segment(run, i))
+            .collect::<Vec<_>>()
+    };
+    runs.iter().flat_map(of_run).collect()
+}
+
+/// Largest difference at equal parameters, where each segment is one span.
+pub(crate) fn difference(curve: &Nurbs, runs: &Runs) -> f64 {
+    let (segments, spans) = (segments(runs), spans(curve));
+    assert_eq!(segments.len(), spans.len());
+    let at_span = |(segment, span): (&[P; 4], &(f64, f64))| {
+        let expected = span_samples(curve, *span, 8);
+        let at = |i: usize| uniform::point(segment, i as f64 / 8.0).distance(expected[i]);
+        (0..=8).map(at).fold(0.0, f64::max)
+    };
+    let differences = segments.iter().zip(&spans).map(at_span);
+    differences.fold(0.0, f64::max)
+}
+
+pub(crate) fn zigzag(count: usize) -> Vec<P> {
+    let at = |i: usize| Point::new(i as f64 * 3.0, (i % 2) as f64 * 5.0 + (i % 3) as f64);
+    (0..count).map(at).collect()
 }

@@ -157,6 +157,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "format": target.name(),
         "counts": counts,
         "named_nodes": made.report.named,
+        "values_left": made.report.values_left,
         "largest_move_m": made.report.largest_move_m,
         "left_notes": { "count": made.report.left_note_count, "first": left.collect::<Vec<_>>() },
         "findings": kinds.iter().map(|kind| json!({
@@ -271,6 +272,20 @@ fn account(report: &BuildReport, options: &BuildOptions) -> String {
             counted(report.overlaps, "pair")
         ),
     );
+    say(report.nodes_left, {
+        let values = report.values_left.iter();
+        let values = values.map(|(name, &count)| {
+            let name = text::single_line(name, 40);
+            format!("{} of {name}", counted(count, "value"))
+        });
+        let values: Vec<String> = values.collect();
+        let values = match values.is_empty() {
+            true => String::new(),
+            false => format!(", and with them {}", values.join(", ")),
+        };
+        let nodes = counted(report.nodes_left, "node");
+        format!("left: {nodes} of the drawing, welded to others or at no line{values}")
+    });
     say(report.left_note_count, {
         let names = report.left_notes.iter().take(SHOWN_NOTES);
         let names: Vec<String> = names.map(|n| text::single_line(&n.name, 40)).collect();

@@ -193,3 +193,20 @@ fn reports_why_methods_fail_and_exits_with_error() {
         assert!(why.contains("--memory"), "{why}");
     }
 }
+
+#[test]
+fn measures_the_tools_of_a_network() {
+    let output = run(["bench", "tools", "--paths", "400", "--json"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let report = answer(&output, "bench-tools");
+    let rows = report["tools"].as_array().unwrap();
+    let tools: Vec<&str> = rows
+        .iter()
+        .map(|row| row["tool"].as_str().unwrap())
+        .collect();
+    assert_eq!(tools, ["network", "check", "router", "route", "diff"]);
+    let is_measured = |row: &Value| row["ms"].as_f64().unwrap() > 0.0;
+    assert!(rows.iter().all(is_measured), "{report}");
+    let said = stdout(&run(["bench", "tools", "--paths", "400"]));
+    assert!(said.contains("network") && said.contains("400"), "{said}");
+}

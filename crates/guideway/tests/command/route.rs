@@ -125,6 +125,10 @@ fn render_draws_the_route_over_the_paths() {
         "the band and its end"
     );
 
+    let open = render(&marked, &["--route", "dock-1,charger-1"]);
+    let said = stderr(&open);
+    assert!(said.contains("--route dock-1,charger-1,TYPE"), "{said}");
+    assert!(!said.contains("--vehicle-type"), "{said}");
     let unknown = render(&marked, &["--route", "dock1,charger-1,tugger-3000"]);
     assert_eq!(unknown.status.code(), Some(2));
     let said = stderr(&unknown);

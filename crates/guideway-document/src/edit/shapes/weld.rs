@@ -14,7 +14,7 @@ use crate::document::Document;
 use crate::edit::curves::{runs_of, with_moved_ends};
 
 /// The numbers of elements that a weld changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Welded {
     /// Nodes that went.
     pub nodes: usize,
@@ -22,6 +22,8 @@ pub struct Welded {
     pub ends: usize,
     /// Paths that went, because the weld left them no length.
     pub paths: usize,
+    /// Values that went with their nodes, by property: the nodes that stay have others, or none.
+    pub values: BTreeMap<String, usize>,
 }
 
 /// A node, or the end of a path without one: row and side of the path.
@@ -119,6 +121,7 @@ impl Document {
                     welded.nodes += 1;
                     paths.extend(self.existing_paths_at(*node));
                     stations.extend(self.index.stations_at(*node));
+                    self.count_values(*node, *keeper, &mut welded.values);
                     plan.replace_member(Member::Node(*node), vec![Member::Node(*keeper)]);
                     plan.remove_node(*node);
                 }
@@ -153,6 +156,27 @@ impl Document {
             plan.set_station_nodes(station, nodes);
         }
         (plan.changes(), welded)
+    }
+
+    /// Counts the values of a node that goes which the node that stays does not have. A node that
+    /// the weld makes has none.
+    fn count_values(&self, node: u32, keeper: u32, values: &mut BTreeMap<String, usize>) {
+        let nodes = &self.layout().nodes;
+        for column in nodes.attributes.iter() {
+            let value = column.values.get(node as usize);
+            if value.is_some() && value != column.values.get(keeper as usize) {
+                *values.entry(column.name.clone()).or_default() += 1;
+            }
+        }
+        let types = nodes.vehicle_types();
+        for column in types.attributes.iter() {
+            let entries = types.entries(node as usize);
+            let count = entries.filter(|&entry| column.values.get(entry).is_some());
+            let count = count.count();
+            if count > 0 {
+                *values.entry(column.name.clone()).or_default() += count;
+            }
+        }
     }
 
     /// Position of a node or an end, in meters; `None` for a path without a curve.

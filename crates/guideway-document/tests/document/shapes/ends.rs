@@ -1,7 +1,7 @@
 //! Welds and straight lines.
 
 use guideway_document::{ShapeError, Welded};
-use guideway_layout::Layout;
+use guideway_layout::{Layout, Value};
 
 use super::network::{assert_same, check, check_step, line, members, network, node, path};
 use crate::site::{document_of, ends, is_near, p, select};
@@ -31,6 +31,47 @@ fn weld_brings_paths_stations_and_blocks_to_one_node() {
 }
 
 #[test]
+fn weld_lists_the_values_that_go() {
+    let mut layout = Layout::default();
+    for (row, x) in [0.0, 10.0, 10.01, 20.0].into_iter().enumerate() {
+        let at = p(x, 0.0);
+        let types: &[&str] = if row == 2 { &["tug"] } else { &[] };
+        layout
+            .nodes
+            .push_for_types(&format!("n{row}"), at, None, types);
+    }
+    for (start, end) in [(0, 1), (2, 3)] {
+        let runs = line(layout.nodes.position_m(start), layout.nodes.position_m(end));
+        layout.paths.push(&guideway_layout::NewPath {
+            runs: &runs,
+            start_node: Some(start),
+            end_node: Some(end),
+            ..guideway_layout::NewPath::default()
+        });
+    }
+    let nodes = &mut layout.nodes;
+    for (row, name, value) in [
+        (1, "zone", "A"),
+        (2, "zone", "A"),
+        (1, "use", "in"),
+        (2, "use", "out"),
+    ] {
+        nodes.attributes.set(row, name, Value::Text(value));
+    }
+    let of_types = &mut nodes.vehicle_types_mut().attributes;
+    of_types.set(0, "theta", Value::Float(1.0));
+    let mut document = document_of(layout);
+    document.select_all();
+    let welded = document.weld(&document.selection().clone(), 0.02).unwrap();
+    // Both are of zone A.
+    let values = welded
+        .values
+        .iter()
+        .map(|(name, count)| (name.as_str(), *count));
+    assert_eq!(values.collect::<Vec<_>>(), [("theta", 1), ("use", 1)]);
+}
+
+#[test]
 fn stations_keep_their_welded_node() {
     let mut layout = Layout::default();
     for (row, x) in [0.0, 10.0, 10.01, 20.0].into_iter().enumerate() {
@@ -54,8 +95,8 @@ fn stations_keep_their_welded_node() {
     let welded = document.weld(&document.selection().clone(), 0.02).unwrap();
     let expected = Welded {
         nodes: 1,
-        ends: 0,
         paths: 1,
+        ..Welded::default()
     };
     assert_eq!(
         welded, expected,

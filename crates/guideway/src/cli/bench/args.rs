@@ -15,12 +15,13 @@ use crate::cli::values;
     guideway bench d1 --paths 100000 --motion edit --moved 10\n  \
     guideway bench d1 --paths 100000 --motion edit --moved 100 --apart\n  \
     guideway bench d1 --paths 1000000 --methods gpu,cpu --magnify 20 --dress mixed\n  \
-    guideway bench d2 --methods grid,grid+scan+radius+exit,tessellation --frames 60 -o d2.json")]
+    guideway bench d2 --methods grid,grid+scan+radius+exit,tessellation --frames 60 -o d2.json\n  \
+    guideway bench tools --paths 1000000")]
 pub(crate) struct Args {
-    /// Layout file, or dataset `d1` or `d2`
-    #[arg(value_name = "FILE|d1|d2", default_value = "d1")]
+    /// Layout file, or dataset `d1` or `d2`; `tools` measures network, check, route and diff
+    #[arg(value_name = "FILE|d1|d2|tools", default_value = "d1")]
     pub(super) subject: PathBuf,
-    /// Number of paths of the dataset [default: 10000]
+    /// Number of paths of the dataset, or of lines of the plan of `tools` [default: 10000]
     #[arg(long, value_name = "N", value_parser = values::paths)]
     pub(super) paths: Option<usize>,
     /// Methods to compare, with their options; ratios are relative to the first [default: all that

@@ -19,9 +19,15 @@ const DEFAULT_PATHS: usize = 10_000;
 const DEFAULT_MOVED_PERCENT: f64 = 1.0;
 
 impl Args {
-    /// The layout file; `None` for a dataset.
+    /// The layout file; `None` for a dataset or the tools.
     pub(super) fn file(&self) -> Option<&Path> {
-        self.dataset().is_none().then_some(&*self.subject)
+        let is_file = self.dataset().is_none() && !self.is_of_tools();
+        is_file.then_some(&*self.subject)
+    }
+
+    /// Returns `true` if the tools of a network are measured, not render methods.
+    pub(super) fn is_of_tools(&self) -> bool {
+        self.subject.as_os_str() == "tools"
     }
 
     fn dataset(&self) -> Option<Dataset> {

@@ -6,11 +6,13 @@
 //! | `contest` | the measurement that the arguments describe |
 //! | `run` | measures and reports |
 //! | `text` | the report as a table |
+//! | `tools` | measures the tools of a network instead |
 
 mod args;
 mod contest;
 mod run;
 mod text;
+mod tools;
 
 pub(crate) use args::Args;
 pub(crate) use run::run;

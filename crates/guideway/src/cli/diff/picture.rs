@@ -24,7 +24,7 @@ const TITLE: &str =
 /// Draws the changes of paths to a PNG or SVG file.
 pub(super) fn write(
     [old, new]: [&Layout; 2],
-    found: &Changes,
+    found: &Changes<'_>,
     output: &Path,
     out: &Output,
 ) -> Result<(), UserError> {
@@ -55,7 +55,7 @@ pub(super) fn write(
 }
 
 /// The new layout and the old paths that are gone or had another shape, with colors and ranks.
-fn colored([old, new]: [&Layout; 2], found: &Changes) -> Layout {
+fn colored([old, new]: [&Layout; 2], found: &Changes<'_>) -> Layout {
     let mut of_new = vec![(UNCHANGED, 0); new.paths.len()];
     let mut of_old = BTreeSet::new();
     let mut removed = BTreeSet::new();
@@ -64,8 +64,8 @@ fn colored([old, new]: [&Layout; 2], found: &Changes) -> Layout {
         .iter()
         .filter(|of| of.element == ElementKind::Path)
     {
-        let (old_row, new_row) = (of.old_row, of.new_row.map(|row| row as usize));
-        match (&of.change, old_row, new_row) {
+        let (old_row, new_row) = (of.old_row(), of.new_row().map(|row| row as usize));
+        match (of.change, old_row, new_row) {
             (Change::Removed, Some(row), _) => {
                 of_old.insert(row as usize);
                 removed.insert(row as usize);

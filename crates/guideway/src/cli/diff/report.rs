@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use guideway::layout::{Change, Changes, ElementChange, ElementKind, shown_path};
+use guideway::layout::{Change, ChangedTexts, Changes, ElementChange, ElementKind, shown_path};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
@@ -24,10 +24,10 @@ pub(super) struct Report {
 }
 
 impl Report {
-    pub(super) fn new(files: [&Path; 2], found: &Changes, ms: [f64; 2]) -> Self {
+    pub(super) fn new(files: [&Path; 2], found: &Changes<'_>, ms: [f64; 2]) -> Self {
         let mut counts = BTreeMap::new();
         for of in &found.elements {
-            let key = (element_name(of.element), kind_name(&of.change));
+            let key = (element_name(of.element), kind_name(of.change));
             *counts.entry(key).or_default() += 1;
         }
         let name = |file: &Path| text::single_line(&shown_path(file), MAX_NAME);
@@ -39,13 +39,13 @@ impl Report {
     }
 
     /// Counts, then one block per element.
-    pub(super) fn text(&self, found: &Changes, max: usize) -> String {
+    pub(super) fn text(&self, found: &Changes<'_>, max: usize) -> String {
         let [old, new] = &self.files;
         let mut lines = format!("{old} -> {new}: {}\n", self.summary(found));
         for (of, all) in listed(found, max) {
-            lines += &format!("{} `{}`\n", element_name(of.element), cut(&of.id));
+            lines += &format!("{} `{}`\n", element_name(of.element), cut(found.id(of)));
             for change in all {
-                lines += &format!("  {}\n", describe(&change.change));
+                lines += &format!("  {}\n", describe(found, change));
             }
         }
         if let Some(more) = rest(found, max) {
@@ -59,7 +59,7 @@ impl Report {
     }
 
     /// A heading with counts and a table with one row per element.
-    pub(super) fn markdown(&self, found: &Changes, max: usize) -> String {
+    pub(super) fn markdown(&self, found: &Changes<'_>, max: usize) -> String {
         let [old, new] = &self.files;
         let mut lines = format!(
             "### `{old}` to `{new}`\n\n{}\n",
@@ -69,8 +69,8 @@ impl Report {
             lines += "\n| element | change |\n|---|---|\n";
         }
         for (of, all) in listed(found, max) {
-            let changes: Vec<String> = all.iter().map(|of| describe(&of.change)).collect();
-            let name = format!("{} `{}`", element_name(of.element), cut(&of.id));
+            let changes: Vec<String> = all.iter().map(|of| describe(found, of)).collect();
+            let name = format!("{} `{}`", element_name(of.element), cut(found.id(of)));
             lines += &format!("| {} | {} |\n", cell(&name), cell(&changes.join("; ")));
         }
         if let Some(more) = rest(found, max) {
@@ -94,14 +94,14 @@ impl Report {
             old: &self.files[0],
             new: &self.files[1],
             counts: counts.collect(),
-            changes: &found.elements,
+            changes: found,
             groups: groups.collect(),
             ms: json!({ "read": self.ms[0], "compare": self.ms[1] }),
         }
     }
 
     /// `2 nodes moved, 1 path added`.
-    fn summary(&self, found: &Changes) -> String {
+    fn summary(&self, found: &Changes<'_>) -> String {
         if found.is_empty() {
             return "no difference".to_owned();
         }
@@ -124,30 +124,32 @@ struct Body<'a> {
     new: &'a str,
     counts: Vec<Value>,
     #[serde(serialize_with = "each_change")]
-    changes: &'a [ElementChange],
+    changes: &'a Changes<'a>,
     groups: Vec<Value>,
     ms: Value,
 }
 
-fn each_change<S: Serializer>(changes: &[ElementChange], to: S) -> Result<S::Ok, S::Error> {
-    to.collect_seq(changes.iter().map(element_json))
+fn each_change<S: Serializer>(found: &Changes<'_>, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_seq(found.elements.iter().map(|of| element_json(found, of)))
 }
 
 /// The changes by element, up to a number of elements.
-fn listed(found: &Changes, max: usize) -> impl Iterator<Item = (&ElementChange, &[ElementChange])> {
-    let by_element = found.elements.chunk_by(is_same_element);
+fn listed<'a>(
+    found: &'a Changes<'_>,
+    max: usize,
+) -> impl Iterator<Item = (&'a ElementChange, &'a [ElementChange])> {
+    let by_element = found.elements.chunk_by(ElementChange::is_same_element);
     by_element.take(max).map(|all| (&all[0], all))
 }
 
 /// The number of elements beyond those that are listed.
-fn rest(found: &Changes, max: usize) -> Option<String> {
-    let elements = found.elements.chunk_by(is_same_element).count();
+fn rest(found: &Changes<'_>, max: usize) -> Option<String> {
+    let elements = found
+        .elements
+        .chunk_by(ElementChange::is_same_element)
+        .count();
     let more = elements.saturating_sub(max) as u64;
     (more > 0).then(|| text::counted(more, "more element"))
-}
-
-fn is_same_element(a: &ElementChange, b: &ElementChange) -> bool {
-    (a.element, a.old_row, a.new_row) == (b.element, b.old_row, b.new_row)
 }
 
 fn element_name(kind: ElementKind) -> &'static str {
@@ -162,62 +164,59 @@ fn element_name(kind: ElementKind) -> &'static str {
     }
 }
 
-fn kind_name(change: &Change) -> &'static str {
+fn kind_name(change: Change) -> &'static str {
     match change {
         Change::Added => "added",
         Change::Removed => "removed",
-        Change::Renamed { .. } => "renamed",
+        Change::Renamed => "renamed",
         Change::Moved { .. } => "moved",
         Change::Reshaped { .. } => "reshaped",
-        Change::Set { .. } => "set",
+        Change::Set(_) => "set",
     }
 }
 
-fn describe(change: &Change) -> String {
-    match change {
+fn describe(found: &Changes<'_>, of: &ElementChange) -> String {
+    match of.change {
         Change::Added => "added".to_owned(),
         Change::Removed => "removed".to_owned(),
-        Change::Renamed { to } => format!("renamed to `{}`", cut(to)),
-        Change::Moved { distance_m } => format!("moved by {}", text::meters(*distance_m)),
+        Change::Renamed => {
+            let to = found.new_id(of).unwrap_or_default();
+            format!("renamed to `{}`", cut(to))
+        }
+        Change::Moved { distance_m } => format!("moved by {}", text::meters(distance_m)),
         Change::Reshaped { greatest_m } => {
-            format!("reshaped, by at most {}", text::meters(*greatest_m))
+            format!("reshaped, by at most {}", text::meters(greatest_m))
         }
-        Change::Set {
-            property,
-            vehicle_type,
-            before,
-            after,
-        } => {
-            let of = vehicle_type.as_ref();
-            let of = of.map_or_else(String::new, |of| format!(" for `{}`", cut(of)));
-            let [before, after] =
-                [before, after].map(|value| value.as_deref().map_or_else(|| "none".into(), cut));
-            format!("{property}{of}: {before} -> {after}")
-        }
+        Change::Set(_) => found.values(of).map_or_else(String::new, |of| set(&of)),
     }
 }
 
-fn element_json(of: &ElementChange) -> Value {
+fn set(values: &ChangedTexts<'_>) -> String {
+    let of = values.vehicle_type;
+    let of = of.map_or_else(String::new, |of| format!(" for `{}`", cut(of)));
+    let [before, after] = [&values.before, &values.after]
+        .map(|value| value.as_deref().map_or_else(|| "none".into(), cut));
+    format!("{}{of}: {before} -> {after}", values.property)
+}
+
+fn element_json(found: &Changes<'_>, of: &ElementChange) -> Value {
     let mut object = json!({
         "element": element_name(of.element),
-        "id": of.id,
-        "change": kind_name(&of.change),
+        "id": found.id(of),
+        "change": kind_name(of.change),
     });
-    match &of.change {
+    match of.change {
         Change::Added | Change::Removed => {}
-        Change::Renamed { to } => object["to"] = json!(to),
+        Change::Renamed => object["to"] = json!(found.new_id(of)),
         Change::Moved { distance_m } => object["distance_m"] = json!(distance_m),
         Change::Reshaped { greatest_m } => object["greatest_m"] = json!(greatest_m),
-        Change::Set {
-            property,
-            vehicle_type,
-            before,
-            after,
-        } => {
-            object["property"] = json!(property);
-            object["vehicle_type"] = json!(vehicle_type);
-            object["before"] = json!(before);
-            object["after"] = json!(after);
+        Change::Set(_) => {
+            if let Some(values) = found.values(of) {
+                object["property"] = json!(values.property);
+                object["vehicle_type"] = json!(values.vehicle_type);
+                object["before"] = json!(values.before);
+                object["after"] = json!(values.after);
+            }
         }
     }
     object
@@ -248,12 +247,12 @@ mod tests {
         assert_eq!(cut("short"), "short");
         assert_eq!(cut(&"x".repeat(100)).chars().count(), MAX_VALUE + 1);
         assert_eq!(cell("a|b"), "a\\|b");
-        let change = Change::Set {
-            property: "maxSpeed".into(),
-            vehicle_type: Some("tug".into()),
+        let values = ChangedTexts {
+            property: "maxSpeed",
+            vehicle_type: Some("tug"),
             before: None,
             after: Some("1.5 m/s".into()),
         };
-        assert_eq!(describe(&change), "maxSpeed for `tug`: none -> 1.5 m/s");
+        assert_eq!(set(&values), "maxSpeed for `tug`: none -> 1.5 m/s");
     }
 }

@@ -152,6 +152,7 @@ fn step_json((step, number): (&Done, u32)) -> Value {
         "nodes": touched.count(Table::Nodes),
         "stations": touched.count(Table::Stations),
         "names": touched.names.iter().take(SHOWN_NAMES).collect::<Vec<_>>(),
+        "lost": touched.lost,
         "ms": step.ms,
     })
 }
@@ -181,5 +182,10 @@ fn step_line(step: &Done, number: u32) -> String {
         true => String::new(),
         false => format!(": {}", names.join(", ")),
     };
-    format!("{number:>3} {}: {counts}{names}\n", step.name)
+    let lost = touched.lost.iter().map(|(name, &count)| {
+        let values = text::counted(count as u64, "value");
+        format!("    lost: {values} of {}\n", text::single_line(name, 40))
+    });
+    let lost: String = lost.collect();
+    format!("{number:>3} {}: {counts}{names}\n{lost}", step.name)
 }

@@ -1,5 +1,7 @@
 //! [`StepKind`]: a kind of step, and [`Touched`]: what a step has touched.
 
+use std::collections::BTreeMap;
+
 use guideway::document::{Document, Elements};
 use guideway::scene::Table;
 
@@ -61,6 +63,8 @@ pub(super) struct Touched {
     elements: Elements,
     /// Their names, those of the first ones only.
     pub(super) names: Vec<String>,
+    /// Number of values per property that went with their elements.
+    pub(super) lost: BTreeMap<String, usize>,
 }
 
 impl Touched {
@@ -76,8 +80,14 @@ impl Touched {
         });
         Self {
             names: names.take(Self::MAX_NAMES).collect(),
+            lost: BTreeMap::new(),
             elements,
         }
+    }
+
+    /// The same with values that went with their elements.
+    pub(super) fn with_lost(self, lost: BTreeMap<String, usize>) -> Self {
+        Self { lost, ..self }
     }
 
     /// One element.

@@ -2,7 +2,7 @@
 
 use guideway::compose::MarkedRoute;
 use guideway::layout::{Layout, UserError};
-use guideway::network::{RouteOptions, Router};
+use guideway::network::{RouteError, RouteOptions, Router};
 use serde_json::{Value, json};
 
 use crate::cli::text;
@@ -43,7 +43,15 @@ impl RouteEnds {
     /// When a name is unknown, or there is no way.
     pub(crate) fn find(&self, layout: &Layout) -> Result<FoundRoute, UserError> {
         let vehicle_type = self.vehicle_type.as_deref().or_else(|| only_type(layout));
-        let router = Router::new(layout, vehicle_type, &RouteOptions::default())?;
+        let router = Router::new(layout, vehicle_type, &RouteOptions::default());
+        let router = router.map_err(|error| {
+            let is_of_type = matches!(error, RouteError::VehicleType { .. });
+            let mut error = UserError::from(error);
+            if is_of_type {
+                error.remedy = format!("Name one: --route {},{},TYPE", self.from, self.to);
+            }
+            error
+        })?;
         let route = router.route(&router.place(&self.from)?, &router.place(&self.to)?)?;
         let rows = route.rows.iter();
         Ok(FoundRoute {

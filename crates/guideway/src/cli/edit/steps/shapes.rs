@@ -60,8 +60,9 @@ pub(super) const WELD: StepKind = StepKind {
  "within": 3}"#,
     perform: |members, document| {
         let paths = members.paths(document)?;
-        document.weld(&paths, members.number("within")?)?;
-        Ok(Touched::of(Elements::of_paths(paths), document))
+        let welded = document.weld(&paths, members.number("within")?)?;
+        let touched = Touched::of(Elements::of_paths(paths), document);
+        Ok(touched.with_lost(welded.values))
     },
 };
 
