@@ -4,15 +4,13 @@ use eframe::egui::{Context, Theme};
 use guideway_document::{Document, Element, Elements, SelectMode};
 use guideway_spline::{Bounds, Point};
 
+use super::edits::tool_context;
 use super::state::App;
 use crate::action::Action;
-use crate::canvas::Canvas;
 use crate::command::Command;
-use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
-use crate::files::{LayerEvent, OpenFiles};
 use crate::panels::dialogs::PromptKind;
-use crate::tools::{PointerEvent, Tool, ToolContext, ToolEffect};
+use crate::tools::{PointerEvent, Tool};
 
 /// Distance of one key press of a pan command, in pixels.
 const PAN_STEP_PX: f64 = 80.0;
@@ -240,17 +238,6 @@ impl App {
         is_cancelled
     }
 
-    /// Runs an edit of the active document. One that takes longer than a frame continues in the
-    /// background.
-    pub(crate) fn edit(&mut self, task: EditTask) {
-        let (wait, repaint) = (self.edit_wait, &self.context.repaint);
-        let layer = self.files.active_mut();
-        let event = layer.and_then(|layer| layer.run(task, wait, repaint));
-        if let Some(LayerEvent::Notice(text)) = event {
-            self.dialogs.notices.add(text);
-        }
-    }
-
     /// Routes a pointer event to the tools.
     pub(super) fn point(&mut self, event: PointerEvent) {
         let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
@@ -267,19 +254,6 @@ impl App {
         if let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) {
             let effect = self.tools.finish_path(&context);
             self.apply_effect(effect);
-        }
-    }
-
-    pub(super) fn apply_effect(&mut self, effect: Option<ToolEffect>) {
-        match effect {
-            Some(ToolEffect::Edit(task)) => self.edit(task),
-            Some(ToolEffect::Refused(why)) => self.dialogs.notices.add(why),
-            Some(ToolEffect::ExpectEdit) => {
-                if let Some(layer) = self.files.active_mut() {
-                    layer.slot.expect_edit(&self.context.repaint);
-                }
-            }
-            None => {}
         }
     }
 
@@ -322,22 +296,6 @@ impl App {
             false => Theme::Light,
         });
     }
-}
-
-/// The input of the tools; `None` while the canvas has no size.
-pub(super) fn tool_context<'a>(
-    files: &'a OpenFiles,
-    canvas: &Canvas,
-    settings: &DisplaySettings,
-) -> Option<ToolContext<'a>> {
-    let view = canvas.camera.view()?;
-    Some(ToolContext {
-        view,
-        document: files.document(),
-        line_rule: settings.line_rule(),
-        picks_symbols: settings.has_symbols,
-        grid_step_m: settings.grid_step_m(&view, canvas.px_per_point()),
-    })
 }
 
 /// Takes the keyboard focus from a text field, so that shortcuts work again.

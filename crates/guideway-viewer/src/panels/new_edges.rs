@@ -9,7 +9,7 @@ use guideway_layout::Direction;
 pub(crate) struct NewEdgesPanel {
     pub(crate) is_open: bool,
     types: String,
-    /// What is wrong with the text.
+    /// The mistake in the text.
     error: Option<String>,
 }
 
@@ -73,7 +73,7 @@ impl NewEdgesPanel {
 /// Vehicle types with their speeds: `tugger: 1.5, stacker`.
 ///
 /// # Errors
-/// What is wrong with a speed or a name.
+/// The mistake in a speed or a name.
 fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
     let mut types: Vec<(String, Option<f64>)> = Vec::new();
     for part in text
