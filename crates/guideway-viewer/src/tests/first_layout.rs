@@ -82,7 +82,7 @@ fn written(layout: &Layout, target: Target) -> Layout {
     let losses = target
         .write(layout, &mut bytes)
         .expect("memory takes all bytes");
-    // A value that LIF 1.0 requires beyond the layout, or derives from paths, is no loss of content.
+    // A value that LIF 1.0 requires, or derives from paths, is no loss of content.
     let is_derived = |loss: &String| {
         let derived = [
             "because the format requires one",
