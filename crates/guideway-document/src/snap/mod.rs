@@ -33,7 +33,7 @@ pub struct SnapOptions {
 pub struct Snapped {
     /// The position, in meters.
     pub at_m: Point<f64>,
-    /// What it snapped to.
+    /// The target that it snapped to.
     pub to: Option<SnapTarget>,
 }
 

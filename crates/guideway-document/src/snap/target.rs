@@ -1,6 +1,6 @@
 //! [`SnapTarget`]: what a position snapped to, with its name.
 
-/// What a position snapped to.
+/// The target that a position snapped to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SnapTarget {
     /// A node, by its row.

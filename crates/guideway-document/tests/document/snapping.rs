@@ -27,7 +27,7 @@ fn document() -> Document {
     }
     let arc = guideway_spline::construct::Arc::through([p(22.0, 0.0), p(20.0, 2.0), p(18.0, 0.0)]);
     let mut runs = Runs::default();
-    arc.unwrap().push(1e-9, &mut runs);
+    arc.expect("three points on a circle").push(1e-9, &mut runs);
     push("arc", &runs, Some(0));
     let mut line = Runs::default();
     line.push_line(p(7.0, -4.0), p(7.0, 4.0));

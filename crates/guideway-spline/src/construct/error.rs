@@ -64,7 +64,7 @@ pub enum ConstructError {
         radius: f64,
     },
     /// No arc of the radius reaches from one point to the other.
-    #[error("a radius of {radius} is too small; half a circle has {:.3}", ceil(*.smallest))]
+    #[error("a radius of {radius} is too small; the least one is {:.3}", ceil(*.smallest))]
     TooSmall {
         /// The radius.
         radius: f64,

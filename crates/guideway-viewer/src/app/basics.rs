@@ -7,7 +7,7 @@ use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::files::{Layer, LayerEvent, OpenFiles};
-use crate::tools::ToolContext;
+use crate::tools::{ToolContext, ToolEffect};
 
 impl App {
     /// Runs an edit of the active document. One that takes longer than a frame continues in the
@@ -18,6 +18,20 @@ impl App {
         let event = layer.and_then(|layer| layer.run(task, wait, repaint));
         if let Some(LayerEvent::Notice(text)) = event {
             self.dialogs.notices.add(text);
+        }
+    }
+
+    /// Runs the effect of an event on a tool.
+    pub(super) fn apply_effect(&mut self, effect: Option<ToolEffect>) {
+        match effect {
+            Some(ToolEffect::Edit(task)) => self.edit(task),
+            Some(ToolEffect::Refused(why)) => self.dialogs.notices.add(why),
+            Some(ToolEffect::ExpectEdit) => {
+                if let Some(layer) = self.files.active_mut() {
+                    layer.slot.expect_edit(&self.context.repaint);
+                }
+            }
+            None => {}
         }
     }
 

@@ -1,12 +1,11 @@
-//! New layouts, typed input, the clipboard of elements, and edits of the selection by keys.
+//! New layouts, the clipboard of elements, and edits of the selection by keys.
 
-use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
+use eframe::egui::Context;
 use guideway_document::{Document, text_format};
 use guideway_layout::{Layout, Level, UserError};
 use guideway_scene::Table;
 use guideway_spline::{Affine, Point};
 
-use super::basics::tool_context;
 use super::state::App;
 use crate::command::Command;
 use crate::editing::EditTask;
@@ -14,7 +13,7 @@ use crate::selection::{
     CopiedElements, DUPLICATE_OFFSET_PX, PointerPlace, arrange_command, question, selection_command,
 };
 use crate::services::AppServices;
-use crate::tools::{HIT_RADIUS_PX, KeyAnswer};
+use crate::tools::HIT_RADIUS_PX;
 
 /// Name of the only level of a new layout.
 const FIRST_LEVEL: &str = "level 1";
@@ -28,48 +27,10 @@ impl App {
         self.tools.clear_hover();
     }
 
-    /// Gives a key to the typed input of the tools. Returns `true` if they took it.
-    pub(super) fn take_typed_key(&mut self, key: Key, modifiers: Modifiers, ctx: &Context) -> bool {
-        let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
-            return false;
-        };
-        let at_px = self.canvas.event_px(ctx);
-        match self.tools.type_key(key, modifiers, &context, at_px) {
-            KeyAnswer::NotTaken => false,
-            KeyAnswer::Taken(effect) => {
-                // Tab does not go to a field then.
-                ctx.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-                self.apply_effect(effect);
-                true
-            }
-        }
-    }
-
-    /// Takes typed text, and the clipboard events by which the window system replaces Ctrl+C,
-    /// Ctrl+X and Ctrl+V. Returns `true` if the event is no longer needed.
-    pub(super) fn take_text(&mut self, event: &Event, ctx: &Context) -> bool {
-        if ctx.text_edit_focused() || self.dialogs.is_modal(&self.files) {
-            return false;
-        }
-        match event {
-            Event::Text(text) => self.files.active().is_some() && self.tools.type_text(text),
-            Event::Paste(text) if self.tools.typed().is_some() => self.tools.type_text(text),
-            // Without selected elements, a text of a panel may be meant.
-            Event::Copy if self.has_selection() => self.perform_taken(Command::Copy, ctx),
-            Event::Cut if self.has_selection() => self.perform_taken(Command::Cut, ctx),
-            Event::Paste(_) => self.perform_taken(Command::Paste, ctx),
-            _ => false,
-        }
-    }
-
-    fn has_selection(&self) -> bool {
+    /// Returns `true` if something is selected.
+    pub(super) fn has_selection(&self) -> bool {
         let document = self.files.document();
         document.is_some_and(|document| !document.selected().is_empty())
-    }
-
-    fn perform_taken(&mut self, command: Command, ctx: &Context) -> bool {
-        self.perform(command, ctx);
-        true
     }
 
     /// Copies the selected elements; the text on the clipboard of the system counts them.

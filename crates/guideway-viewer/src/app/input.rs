@@ -1,13 +1,13 @@
 //! Routes keys and pointer events in the order in which they came: a click followed by Delete in
 //! one slow frame deletes what was clicked.
 
-use eframe::egui::{Context, Event, Key};
+use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
 
-use super::basics::release_keyboard;
+use super::basics::{release_keyboard, tool_context};
 use super::state::App;
 use crate::backdrop::PlanTask;
 use crate::command::{Command, command_of};
-use crate::tools::PointerEvent;
+use crate::tools::{KeyAnswer, PointerEvent};
 
 impl App {
     /// Handles the keys and pointer events of a frame. Fields and dialogs get what is left.
@@ -75,6 +75,45 @@ impl App {
             Key::Backspace => self.point(PointerEvent::RemovePoint(at_px)),
             _ => {}
         }
+    }
+
+    /// Gives a key to the typed input of the tools. Returns `true` if they took it.
+    fn take_typed_key(&mut self, key: Key, modifiers: Modifiers, ctx: &Context) -> bool {
+        let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
+            return false;
+        };
+        let at_px = self.canvas.event_px(ctx);
+        match self.tools.type_key(key, modifiers, &context, at_px) {
+            KeyAnswer::NotTaken => false,
+            KeyAnswer::Taken(effect) => {
+                // Tab does not go to a field then.
+                ctx.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+                self.apply_effect(effect);
+                true
+            }
+        }
+    }
+
+    /// Takes typed text, and the clipboard events by which the window system replaces Ctrl+C,
+    /// Ctrl+X and Ctrl+V. Returns `true` if the event is no longer needed.
+    fn take_text(&mut self, event: &Event, ctx: &Context) -> bool {
+        if ctx.text_edit_focused() || self.dialogs.is_modal(&self.files) {
+            return false;
+        }
+        match event {
+            Event::Text(text) => self.files.active().is_some() && self.tools.type_text(text),
+            Event::Paste(text) if self.tools.typed().is_some() => self.tools.type_text(text),
+            // Without selected elements, a text of a panel may be meant.
+            Event::Copy if self.has_selection() => self.take_command(Command::Copy, ctx),
+            Event::Cut if self.has_selection() => self.take_command(Command::Cut, ctx),
+            Event::Paste(_) => self.take_command(Command::Paste, ctx),
+            _ => false,
+        }
+    }
+
+    fn take_command(&mut self, command: Command, ctx: &Context) -> bool {
+        self.perform(command, ctx);
+        true
     }
 
     fn take_pointer(&mut self, event: &Event, ctx: &Context) {

@@ -5,7 +5,7 @@
 //! | start | launch options | [`App`] with all parts, files that load | `state`, `opening` |
 //! | frame | results of threads, input of egui | shown parts, actions | `frame` |
 //! | remember | settings and window | a file in the state folder | `remember` |
-//! | input | keys and pointer events, in order | commands, events of the tools | `input` |
+//! | input | keys, texts and pointer events, in order | commands, events of the tools | `input` |
 //! | pick | pointer events | the file that was clicked | `picking` |
 //! | route | action, command, pointer event | calls of the owning part | `routing` |
 //! | context menu | a right click | a selection, commands | `context_menu` |
@@ -13,7 +13,7 @@
 //! | file commands | paths | loads, exports | `file_commands` |
 //! | floor plan | a file, clicks, drags | a plan at its place | `floor_plan` |
 //! | project | files, plan, view, look | a project file, and back | `project` |
-//! | drawing | keys, texts, commands | new layouts, typed points, pasted and arranged elements | `drawing` |
+//! | drawing | commands | new layouts, pasted and arranged elements | `drawing` |
 //! | save | the active file | a written file, or a question | `saving` |
 
 mod basics;

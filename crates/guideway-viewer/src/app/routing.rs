@@ -12,7 +12,7 @@ use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
 use crate::files::Layer;
 use crate::panels::{BottomView, SideTab};
-use crate::tools::{PointerEvent, Tool, ToolEffect};
+use crate::tools::{PointerEvent, Tool};
 
 /// Distance of one key press of a pan command, in pixels.
 const PAN_STEP_PX: f64 = 80.0;
@@ -288,19 +288,6 @@ impl App {
         if let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) {
             let effect = self.tools.finish_path(&context);
             self.apply_effect(effect);
-        }
-    }
-
-    pub(super) fn apply_effect(&mut self, effect: Option<ToolEffect>) {
-        match effect {
-            Some(ToolEffect::Edit(task)) => self.edit(task),
-            Some(ToolEffect::Refused(why)) => self.dialogs.notices.add(why),
-            Some(ToolEffect::ExpectEdit) => {
-                if let Some(layer) = self.files.active_mut() {
-                    layer.slot.expect_edit(&self.context.repaint);
-                }
-            }
-            None => {}
         }
     }
 

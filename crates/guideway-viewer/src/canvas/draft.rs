@@ -1,4 +1,4 @@
-//! Paints what is drawn, or the polyline that is measured, with its dimensions.
+//! Paints the path that is drawn, or the polyline that is measured, with its dimensions.
 
 use eframe::egui::{FontId, Painter, Pos2, Stroke, Vec2};
 use guideway_document::decorations::path_outline;
@@ -18,7 +18,7 @@ const TEXT_POINTS: f32 = 13.0;
 /// Opacity of the box behind the dimensions.
 const BACKGROUND_OPACITY: f32 = 0.75;
 
-/// What is drawn, or a polyline being measured.
+/// A path being drawn, or a polyline being measured.
 pub(super) struct Draft<'a> {
     /// The points so far and the one at the pointer, in meters.
     pub(super) points_m: &'a [Point<f64>],

@@ -1,4 +1,4 @@
-//! Paints what the pointer snaps to: a marker, and its name.
+//! Paints the place to which the pointer snaps: a marker, and its name.
 
 use eframe::egui::{FontId, Painter, Pos2, Shape, Stroke, StrokeKind, Vec2, vec2};
 use guideway_document::{SnapTarget, Snapped};

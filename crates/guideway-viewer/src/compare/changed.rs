@@ -1,7 +1,7 @@
 //! The changes of one comparison, with rows of both documents.
 
 use guideway_document::{Element, Elements, Snapshot, text_format};
-use guideway_layout::{Change, CompareOptions, ElementChange, ElementKind, changes};
+use guideway_layout::{Change, Changes, CompareOptions, ElementChange, ElementKind, changes};
 use guideway_scene::Table;
 
 /// Positions and curves within a millimeter are the same: files round to that.
@@ -45,7 +45,8 @@ impl Changed {
             tolerance_m: TOLERANCE_M,
             ..CompareOptions::default()
         };
-        let found = changes(&other.to_layout(), &active.to_layout(), &options);
+        let (old, new) = (other.to_layout(), active.to_layout());
+        let found = changes(&old, &new, &options);
         let rows = |snapshot: &Snapshot| Table::ALL.map(|of| snapshot.kept(of));
         let (old_rows, new_rows) = (rows(other), rows(active));
         let mut changed = Self::default();
@@ -57,7 +58,7 @@ impl Changed {
                 let rows = &rows[of as usize];
                 rows.get(row as usize).map_or(row, |&row| row as u32)
             };
-            let (kind, row) = match (change.old_row, change.new_row) {
+            let (kind, row) = match (change.old_row(), change.new_row()) {
                 (Some(old), None) => (ChangeKind::Gone, place(&old_rows, old)),
                 (None, Some(new)) => (ChangeKind::New, place(&new_rows, new)),
                 (_, Some(new)) => (ChangeKind::Changed, place(&new_rows, new)),
@@ -71,7 +72,7 @@ impl Changed {
             set.rows_mut(of).insert(row);
             changed.lines.push(ChangeLine {
                 kind,
-                text: text_of(of, change),
+                text: text_of(of, &found, change),
                 element: match of {
                     Table::Paths => Element::Path(row),
                     Table::Nodes => Element::Node(row),
@@ -104,30 +105,29 @@ fn table(kind: ElementKind) -> Option<Table> {
 }
 
 /// `path a: maxSpeed 1 m/s, was 2 m/s`.
-fn text_of(of: Table, change: &ElementChange) -> String {
+fn text_of(of: Table, found: &Changes<'_>, change: &ElementChange) -> String {
     let what = of.element();
-    let id = &change.id;
-    let detail = match &change.change {
+    let id = found.id(change);
+    let detail = match change.change {
         Change::Added => "is new".to_owned(),
         Change::Removed => "is gone".to_owned(),
-        Change::Renamed { to } => format!("is called {to} now"),
-        Change::Moved { distance_m } => format!("moved by {}", text_format::length(*distance_m)),
+        Change::Renamed => format!("is called {} now", found.new_id(change).unwrap_or_default()),
+        Change::Moved { distance_m } => format!("moved by {}", text_format::length(distance_m)),
         Change::Reshaped { greatest_m } => {
             format!(
                 "has another shape, up to {} away",
-                text_format::length(*greatest_m)
+                text_format::length(greatest_m)
             )
         }
-        Change::Set {
-            property,
-            vehicle_type,
-            before,
-            after,
-        } => {
-            let of = vehicle_type.as_ref().map(|name| format!(" for {name}"));
-            let [before, after] = [before, after].map(|v| v.as_deref().unwrap_or("none"));
+        Change::Set(_) => {
+            let Some(values) = found.values(change) else {
+                return format!("{what} {id}");
+            };
+            let of = values.vehicle_type.map(|name| format!(" for {name}"));
+            let [before, after] = [values.before, values.after];
+            let [before, after] = [before, after].map(|v| v.unwrap_or_else(|| "none".to_owned()));
             let of = of.unwrap_or_default();
-            format!("{property}{of} is {after}, was {before}")
+            format!("{}{of} is {after}, was {before}", values.property)
         }
     };
     format!("{what} {id}: {detail}")

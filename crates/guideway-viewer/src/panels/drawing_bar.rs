@@ -54,15 +54,15 @@ impl DrawingBar<'_> {
             };
             let text = format!("New paths: {direction}, {types}");
             let button = ui.selectable_label(self.new_edges.is_open, text);
-            if button
-                .on_hover_text("Direction, vehicle types and speeds of what is drawn")
-                .clicked()
-            {
+            let button =
+                button.on_hover_text("Direction, vehicle types and speeds of what is drawn");
+            if button.clicked() {
                 self.new_edges.is_open ^= true;
             }
+            let (at, document) = (button.rect.left_bottom(), self.files.document());
+            let template = &mut self.tools.template;
+            self.new_edges.show(ui.ctx(), at, document, template);
         });
-        self.new_edges
-            .show(ui.ctx(), self.files.document(), &mut self.tools.template);
         actions
     }
 
@@ -71,7 +71,7 @@ impl DrawingBar<'_> {
         let step_m = &mut self.settings.grid_step_m;
         let text = |step_m: Option<f64>| match step_m {
             Some(step_m) => format!("{step_m} m"),
-            None => "any scale".to_owned(),
+            None => "automatic".to_owned(),
         };
         ComboBox::from_id_salt("grid step")
             .selected_text(text(*step_m))

@@ -1,6 +1,6 @@
 //! The New paths window: direction, greatest speed and vehicle types of what is drawn.
 
-use eframe::egui::{Context, DragValue, TextEdit, Window};
+use eframe::egui::{Button, Context, DragValue, Pos2, TextEdit, Window};
 use guideway_document::{Document, EdgeTemplate};
 use guideway_layout::Direction;
 
@@ -9,21 +9,22 @@ use guideway_layout::Direction;
 pub(crate) struct NewEdgesPanel {
     pub(crate) is_open: bool,
     types: String,
-    /// What is wrong with the text.
+    /// The mistake in the text.
     error: Option<String>,
 }
 
 impl NewEdgesPanel {
-    /// Shows the window if it is open, and changes the template.
+    /// Shows the window if it is open, at first at a point of the window, and changes the template.
     pub(super) fn show(
         &mut self,
         ctx: &Context,
+        at: Pos2,
         document: Option<&Document>,
         template: &mut EdgeTemplate,
     ) {
         let mut is_open = self.is_open;
         let window = Window::new("New paths").open(&mut is_open);
-        window.resizable(false).show(ctx, |ui| {
+        window.resizable(false).default_pos(at).show(ctx, |ui| {
             let mut is_two_way = template.direction == Direction::Both;
             ui.checkbox(&mut is_two_way, "Two-way");
             template.direction = match is_two_way {
@@ -40,7 +41,7 @@ impl NewEdgesPanel {
                 }
                 template.max_speed = has_speed.then_some(speed);
             });
-            let label = ui.label("Vehicle types, each with a greatest speed in m/s if it has one");
+            let label = ui.label("Vehicle types, with their speeds in m/s");
             let field = TextEdit::singleline(&mut self.types)
                 .hint_text("tugger: 1.5, stacker: 1.2")
                 .desired_width(260.0);
@@ -58,10 +59,8 @@ impl NewEdgesPanel {
                 let path = document.selection().min()?;
                 Some((document, path))
             });
-            let like = ui.add_enabled(
-                selected.is_some(),
-                eframe::egui::Button::new("As the selected path"),
-            );
+            let like = Button::new("As the selected path");
+            let like = ui.add_enabled(selected.is_some(), like);
             if let (true, Some((document, path))) = (like.clicked(), selected) {
                 *template = document.template_of(path);
                 (self.types, self.error) = (types_text(&template.vehicle_types), None);
@@ -74,7 +73,7 @@ impl NewEdgesPanel {
 /// Vehicle types with their speeds: `tugger: 1.5, stacker`.
 ///
 /// # Errors
-/// What is wrong with a speed or a name.
+/// The mistake in a speed or a name.
 fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
     let mut types: Vec<(String, Option<f64>)> = Vec::new();
     for part in text

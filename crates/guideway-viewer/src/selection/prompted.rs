@@ -56,7 +56,7 @@ pub(crate) fn question(
 /// The edit of a command with the answer to its question.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The mistake in the text.
 pub(crate) fn prompted_edit(command: Command, text: &str) -> Result<EditTask, String> {
     let text = text.trim().to_owned();
     Ok(match command {
@@ -103,7 +103,7 @@ pub(crate) fn prompted_edit(command: Command, text: &str) -> Result<EditTask, St
             let selected = document.selected().clone();
             let moved = document.set_level(&selected, Some(level));
             moved.map_err(|error| error.to_string())?;
-            // What is on another level now is no longer shown.
+            // Elements that are on another level now are no longer shown.
             document.show_level(document.level());
             Ok::<(), String>(())
         }),

@@ -20,7 +20,7 @@ fn set_vehicle_types(window: &mut TestWindow) {
     let bar = "New paths: one-way, all vehicle types";
     window.harness.get_by_label(bar).click();
     window.harness.run_steps(3);
-    let label = "Vehicle types, each with a greatest speed in m/s if it has one";
+    let label = "Vehicle types, with their speeds in m/s";
     let field = By::new().role(Role::TextInput).label(label);
     window.harness.get(field).focus();
     window.harness.run_steps(2);
@@ -79,8 +79,10 @@ fn create_stations(window: &mut TestWindow) {
 
 fn written(layout: &Layout, target: Target) -> Layout {
     let mut bytes = Vec::new();
-    let losses = target.write(layout, &mut bytes).unwrap();
-    // What LIF 1.0 requires beyond the layout, or derives from its paths, is no loss of content.
+    let losses = target
+        .write(layout, &mut bytes)
+        .expect("memory takes all bytes");
+    // A value that LIF 1.0 requires, or derives from paths, is no loss of content.
     let is_derived = |loss: &String| {
         let derived = [
             "because the format requires one",
@@ -91,7 +93,7 @@ fn written(layout: &Layout, target: Target) -> Layout {
     let losses = losses.iter().map(|loss| loss.to_string());
     let losses: Vec<String> = losses.filter(|loss| !is_derived(loss)).collect();
     assert!(losses.is_empty(), "{target:?}: {losses:?}");
-    read_bytes("first.lif.json", &bytes, &ReadOptions::default()).unwrap()
+    read_bytes("first.lif.json", &bytes, &ReadOptions::default()).expect("it is valid")
 }
 
 #[test]

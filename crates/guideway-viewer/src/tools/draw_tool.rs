@@ -46,7 +46,7 @@ impl Tools {
         }
     }
 
-    /// What is drawn, with the point at the pointer; `None` without a tool that draws.
+    /// The drawing so far, with the point at the pointer; `None` without a tool that draws.
     pub(crate) fn drawing(&self, next_m: Option<Point<f64>>) -> Option<Drawing> {
         Some(Drawing {
             points_m: self.points().iter().copied().chain(next_m).collect(),

@@ -9,8 +9,11 @@
 //! | nodes and control points | `points_tool`, `drag` |
 //! | lines, arcs, curves, measures | `draw_tool`, `typing` |
 //! | nodes, stations | `place_tool`, `typing` |
+//!
+//! `dispatch` gives each event to the selected tool.
 
 mod cursor;
+mod dispatch;
 mod drag;
 mod draw_tool;
 mod gesture;

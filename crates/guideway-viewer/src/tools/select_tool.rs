@@ -48,7 +48,7 @@ fn alternate_in_pair(hit: Hit, context: &ToolContext<'_>) -> Hit {
     Hit { path, ..hit }
 }
 
-/// How a click or a box changes the selection.
+/// The change of the selection by a click or a box.
 pub(super) fn select_mode(modifiers: Modifiers) -> SelectMode {
     if modifiers.shift {
         SelectMode::Add

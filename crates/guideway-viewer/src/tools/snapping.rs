@@ -10,7 +10,7 @@ use super::tool_context::ToolContext;
 /// With Shift, lines and moves snap to multiples of 360° / 24 = 15°.
 const DIRECTIONS: u32 = 24;
 
-/// What points and moves snap to, beside nodes.
+/// The targets of points and moves, beside nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SnapSettings {
     /// Places of paths: ends, middles, crossings, feet, tangents.

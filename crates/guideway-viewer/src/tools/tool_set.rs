@@ -1,12 +1,10 @@
-//! The selected tool and its gesture: turns pointer events into edits.
+//! The selected tool, its gesture, and what points snap to.
 
 use eframe::egui::Modifiers;
 use guideway_document::{Document, EdgeTemplate, Hit, Snapped};
 use guideway_spline::Point;
 
 use super::gesture::Gesture;
-use super::hit_test::MAX_HOVER_CANDIDATES;
-use super::pointer_event::PointerEvent;
 use super::snapping::{SnapSettings, snap_point};
 use super::tool::Tool;
 use super::tool_context::ToolContext;
@@ -20,8 +18,8 @@ pub(crate) struct Tools {
     pub(super) gesture: Gesture,
     /// The text that is typed instead of a click.
     pub(super) typed: Option<TypedText>,
-    hover: Option<Hit>,
-    /// What moves and new points snap to.
+    pub(super) hover: Option<Hit>,
+    /// The targets of moves and new points.
     pub(crate) snaps: SnapSettings,
     /// The properties of new paths.
     pub(crate) template: EdgeTemplate,
@@ -109,7 +107,7 @@ impl Tools {
         snap_point(context, &self.gesture, self.snaps, at_m, modifiers)
     }
 
-    /// What a click or drag at the pointer would snap to; `None` if nothing snaps.
+    /// The target of a click or drag at the pointer; `None` if nothing snaps.
     pub(crate) fn snap_target(
         &self,
         context: &ToolContext<'_>,
@@ -121,56 +119,4 @@ impl Tools {
         let snapped = snaps.then(|| self.snapped(context, at_m, modifiers));
         snapped.filter(|snapped| snapped.to.is_some())
     }
-
-    /// Handles a pointer event.
-    pub(crate) fn handle(
-        &mut self,
-        event: PointerEvent,
-        context: &ToolContext<'_>,
-    ) -> Option<ToolEffect> {
-        match event {
-            PointerEvent::Hover(at_px) => {
-                if matches!(self.gesture, Gesture::None | Gesture::Points(_)) {
-                    let pick = |at_px| context.pick(at_px, MAX_HOVER_CANDIDATES);
-                    self.hover = at_px.and_then(pick);
-                }
-                None
-            }
-            PointerEvent::DragStarted(at_px) => self.begin_drag(at_px, context),
-            PointerEvent::Dragged(at_px, modifiers) => self.drag(at_px, modifiers, context),
-            PointerEvent::DragEnded(modifiers) => self.end_drag(modifiers, context),
-            PointerEvent::Cancelled => self.cancel_gesture(),
-            PointerEvent::Clicked(at_px, modifiers) => self.click(at_px, modifiers, context),
-            PointerEvent::DoubleClicked => self.double_click(context),
-            PointerEvent::SecondaryClicked => self.finish_path(context),
-            PointerEvent::InsertPoint(at_px) => self.change_points(at_px, true, context),
-            PointerEvent::RemovePoint(at_px) => self.change_points(at_px, false, context),
-        }
-    }
-
-    fn click(
-        &mut self,
-        at_px: Point<f64>,
-        modifiers: Modifiers,
-        context: &ToolContext<'_>,
-    ) -> Option<ToolEffect> {
-        if self.tool.adds_points() {
-            let snapped = self.snapped(context, context.world(at_px), modifiers);
-            return self.add_point(snapped, context);
-        }
-        Some(self.select_at(at_px, modifiers, context))
-    }
-
-    fn double_click(&mut self, context: &ToolContext<'_>) -> Option<ToolEffect> {
-        match self.tool {
-            Tool::Line | Tool::Arc | Tool::Curve => return self.finish_path(context),
-            Tool::Measure => self.gesture = Gesture::None,
-            Tool::Select if self.hovered(context.document).is_some() => self.select(Tool::Points),
-            Tool::Select | Tool::Points | Tool::Node | Tool::Station => {}
-        }
-        None
-    }
 }
-
-#[cfg(test)]
-mod tests;

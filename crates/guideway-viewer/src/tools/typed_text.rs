@@ -30,7 +30,7 @@ pub(super) enum Typed {
 /// Reads a typed text.
 ///
 /// # Errors
-/// What is wrong, and which forms there are.
+/// The mistake, and the forms that there are.
 pub(super) fn parse(text: &str) -> Result<Typed, String> {
     let text = text.trim();
     if let Some(radius) = text.strip_prefix(['r', 'R']) {

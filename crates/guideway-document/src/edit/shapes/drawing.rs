@@ -42,7 +42,7 @@ pub enum DrawnCurve {
     Smooth,
 }
 
-/// What a person draws.
+/// A drawing by a person: points, and the curve between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     /// The points, in meters. Points at a node are that node.

@@ -156,6 +156,13 @@ impl From<ShapeError> for UserError {
                 "radius",
                 "Choose a smaller radius, or make the paths longer",
             ),
+            ShapeError::Curve {
+                reason: ConstructError::TooSmall { .. },
+                ..
+            } => (
+                "radius",
+                "Choose a larger radius, or move the points together",
+            ),
             ShapeError::Curve { .. } => ("curve", "Correct the points or the directions"),
             ShapeError::Length { .. } => ("length", "Correct the value"),
             ShapeError::NoPath => ("selection", "Choose paths"),

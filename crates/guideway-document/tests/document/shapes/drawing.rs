@@ -30,8 +30,8 @@ fn tangents(document: &Document, row: usize) -> [Point<f64>; 2] {
         .flat_map(|run| run.segments().collect::<Vec<_>>());
     let beziers: Vec<_> = segments.map(|segment| to_bezier(&segment)).collect();
     [
-        start_direction(&beziers[0]).unwrap(),
-        end_direction(beziers.last().unwrap()).unwrap(),
+        start_direction(&beziers[0]).expect("a curve with a length"),
+        end_direction(&beziers[beziers.len() - 1]).expect("a curve with a length"),
     ]
 }
 

@@ -13,7 +13,7 @@ pub(crate) struct TextDialog {
 
 struct OpenQuestion {
     question: TextQuestion,
-    /// What is wrong with the text.
+    /// The mistake in the text.
     error: Option<String>,
     /// True if the field takes the focus in the next frame.
     wants_focus: bool,

@@ -2,6 +2,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
+use guideway_document::Document;
 use guideway_scene::{FrameSize, LineRule, View};
 
 use super::*;
