@@ -18,7 +18,7 @@ use super::paint_gesture::{
     HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_glowing, paint_handles,
     paint_outline, paint_rings,
 };
-use super::paint_tools::Sheet;
+use super::paint_tools::ToolPainter;
 use super::screen::Screen;
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
 use crate::compare::Changed;
@@ -61,7 +61,7 @@ impl CanvasPainter<'_> {
         list(self.settings.grid(&self.view, px_per_point));
         self.paint_picture(painter, self.swept_areas.shown(), 1.0);
         if let Some((route, _)) = self.route {
-            self.sheet(painter).route_area(route, background);
+            self.tool_painter(painter).route_area(route, background);
         }
         for layer in self.files.visible() {
             let shown = layer.picture.shown().filter(|_| layer.look.has_paths);
@@ -167,8 +167,8 @@ impl CanvasPainter<'_> {
         }
     }
 
-    fn sheet<'p>(&'p self, painter: &'p Painter) -> Sheet<'p> {
-        Sheet {
+    fn tool_painter<'p>(&'p self, painter: &'p Painter) -> ToolPainter<'p> {
+        ToolPainter {
             painter,
             screen: self.screen,
             view: &self.view,
@@ -180,13 +180,13 @@ impl CanvasPainter<'_> {
         let Some(document) = self.files.document() else {
             return;
         };
-        let sheet = self.sheet(painter);
+        let tools = self.tool_painter(painter);
         if let Some((other, changed)) = self.changes {
-            sheet.changes(other, document, changed);
+            tools.changes(other, document, changed);
         }
         if let Some((route, driven)) = self.route {
             let vehicle = self.swept_areas.vehicle().ok();
-            sheet.route(document, route, driven, vehicle);
+            tools.route(document, route, driven, vehicle);
         }
     }
 
