@@ -1,4 +1,5 @@
-//! Query language that selects paths, nodes or stations by their columns: `maxSpeed > 1.5 and not level = "1"`.
+//! Query language that selects paths, nodes or stations by their columns:
+//! `maxSpeed > 1.5 and not level = "1"`.
 //!
 //! | file | input | output |
 //! |---|---|---|
@@ -30,8 +31,9 @@ use crate::PathSet;
 /// ```
 ///
 /// A column is an attribute of the file, or `id`, `level`, `vehicle_type`; of paths `direction`,
-/// `length_m`, `start_node`, `end_node`; of nodes and stations `x`, `y`; of stations `nodes`. `~` tests whether the column's text contains the value, ignoring case. Quote names and values
-/// that contain spaces. Numbers compare as numbers, everything else as text. A path without a value
+/// `length_m`, `start_node`, `end_node`; of nodes and stations `x`, `y`; of stations `nodes`. `~`
+/// tests whether the column's text contains the value, ignoring case. Quote names and values that
+/// contain spaces. Numbers compare as numbers, everything else as text. An element without a value
 /// fulfills only `!=`.
 #[derive(Clone, Debug)]
 pub struct Query {

@@ -141,7 +141,7 @@ fn dead_ends_and_opposed_paths_are_turned() {
     assert_eq!(reversals.len(), 2);
     document.fix(&reversals[1].fix).unwrap();
     assert_eq!(document.layout().paths.get(2).start_node(), Some(2));
-    // What has gone has no fixes, and an old fix is refused.
+    // A deleted path has no fixes, and an old fix is refused.
     let delete = Fix::Delete(guideway_document::Elements::of(Element::Path(2)));
     document.fix(&delete).unwrap();
     assert!(fixes(&document, Code::DuplicatePath, Element::Path(2)).is_empty());

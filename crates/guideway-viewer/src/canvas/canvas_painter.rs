@@ -19,7 +19,7 @@ use super::paint_gesture::{
     paint_outline, paint_rings,
 };
 use super::paint_snap::paint_snap;
-use super::paint_tools::Sheet;
+use super::paint_tools::ToolPainter;
 use super::paint_typed::paint_typed;
 use super::screen::Screen;
 use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanTask, SweptAreasLayer};
@@ -64,7 +64,7 @@ impl CanvasPainter<'_> {
         list(self.settings.grid(&self.view, px_per_point));
         self.paint_picture(painter, self.swept_areas.shown(), 1.0);
         if let Some((route, _)) = self.route {
-            self.sheet(painter).route_area(route, background);
+            self.tool_painter(painter).route_area(route, background);
         }
         for layer in self.files.visible() {
             let shown = layer.picture.shown().filter(|_| layer.look.has_paths);
@@ -210,8 +210,8 @@ impl CanvasPainter<'_> {
         }
     }
 
-    fn sheet<'p>(&'p self, painter: &'p Painter) -> Sheet<'p> {
-        Sheet {
+    fn tool_painter<'p>(&'p self, painter: &'p Painter) -> ToolPainter<'p> {
+        ToolPainter {
             painter,
             screen: self.screen,
             view: &self.view,
@@ -223,13 +223,13 @@ impl CanvasPainter<'_> {
         let Some(document) = self.files.document() else {
             return;
         };
-        let sheet = self.sheet(painter);
+        let tools = self.tool_painter(painter);
         if let Some((other, changed)) = self.changes {
-            sheet.changes(other, document, changed);
+            tools.changes(other, document, changed);
         }
         if let Some((route, driven)) = self.route {
             let vehicle = self.swept_areas.vehicle().ok();
-            sheet.route(document, route, driven, vehicle);
+            tools.route(document, route, driven, vehicle);
         }
     }
 

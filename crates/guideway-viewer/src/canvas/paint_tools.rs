@@ -32,13 +32,13 @@ pub(crate) fn change_color(kind: ChangeKind) -> Color32 {
 
 /// A view on the screen.
 #[derive(Clone, Copy)]
-pub(super) struct Sheet<'a> {
+pub(super) struct ToolPainter<'a> {
     pub(super) painter: &'a Painter,
     pub(super) screen: Screen,
     pub(super) view: &'a View,
 }
 
-impl Sheet<'_> {
+impl ToolPainter<'_> {
     fn point(self, at_m: Point<f64>) -> Pos2 {
         self.screen.point(self.view.pixel_from_world(at_m))
     }

@@ -7,7 +7,7 @@ use guideway_scene::Table;
 /// Positions and curves within a millimeter are the same: files round to that.
 const TOLERANCE_M: f64 = 1e-3;
 
-/// What happened to an element from the other file to the active one.
+/// The fate of an element from the other file to the active one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ChangeKind {
     Gone,

@@ -8,7 +8,7 @@ use super::changed::Changed;
 use crate::background::{BackgroundTask, RepaintHandle};
 use crate::files::{Layer, OpenFiles};
 
-/// What a result is about: the two files, and the states of their documents.
+/// The subject of a result: the two files, and the states of their documents.
 #[derive(Clone, Debug, PartialEq)]
 struct CompareKey {
     files: [PathBuf; 2],

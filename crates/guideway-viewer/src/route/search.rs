@@ -14,7 +14,7 @@ pub(crate) enum Slot {
     To,
 }
 
-/// What a result is about.
+/// The subject of a result.
 #[derive(Clone, Debug, PartialEq)]
 struct RouteKey {
     /// Index of the file, and state of its document.
@@ -35,7 +35,7 @@ pub(crate) struct RouteSearch {
     picking: Option<Slot>,
     /// `None` until the user chooses one: then it is the first type of the layout.
     pub(crate) vehicle_type: Option<String>,
-    /// How far the vehicle has driven, as a part of the route.
+    /// The part of the route that the vehicle has driven, from 0 to 1.
     pub(crate) driven: f32,
     pub(crate) shows_area: bool,
     result: Option<(RouteKey, Found)>,

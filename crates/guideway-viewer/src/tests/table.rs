@@ -69,7 +69,7 @@ fn selection_is_shared_with_the_drawing() {
     let at = cell(&window, "lane 1");
     window.click_with(at, CTRL);
     assert_eq!(window.selected(), [0, 2]);
-    // What is selected in the drawing scrolls into view.
+    // A path that is selected in the drawing scrolls into view.
     let mut window = table_of(500);
     assert!(window.harness.query_by_label("lane 400").is_none());
     window.change(|document| {
@@ -195,7 +195,7 @@ fn nodes_are_moved_by_their_cells() {
     window.app().bottom.table.of = Table::Nodes;
     window.harness.run_steps(4);
     let at = cell(&window, "n1 10");
-    let x = Pos2::new(at.x + 140.0, at.y);
+    let x = Pos2::new(at.x + 200.0, at.y);
     double_click(&mut window, x);
     window.key(CTRL, Key::A);
     window.harness.event(Event::Text("12".into()));

@@ -16,7 +16,7 @@ const COLUMN_WIDTH: f32 = 110.0;
 /// Space between the text of a cell and its edges, in points.
 const PADDING: f32 = 4.0;
 
-/// What the user did to the grid.
+/// An action of the user on the grid.
 pub(super) enum GridEvent {
     /// The header of a column was clicked.
     Sort(usize),

@@ -10,7 +10,7 @@ use crate::background::{BackgroundTask, RepaintHandle};
 /// Longest time that a frame waits for rows: a small table never shows old ones.
 const ROWS_WAIT: Duration = Duration::from_millis(8);
 
-/// What decides which rows are shown, and in which order.
+/// The choice of the shown rows and of their order.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RowsKey {
     /// Index of the file, and state of its document.
