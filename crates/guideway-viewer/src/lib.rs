@@ -48,6 +48,7 @@ mod services;
 mod tests;
 mod tools;
 mod window;
+mod window_icon;
 
 pub use launch_options::LaunchOptions;
 pub use measure::{Movement, measure};

@@ -41,7 +41,7 @@ pub struct Movement {
     pub name: &'static str,
     /// Time of each frame on the window's thread, in milliseconds: input, panels, marks, triangles.
     pub frames_ms: Vec<f64>,
-    /// Frames that a window would have presented: one per input event, and those that the window
+    /// Frames that a window would have presented: those with input events, and those that it
     /// asks for.
     pub presented: usize,
     /// Time from request to picture of each picture that was shown meanwhile, in milliseconds.

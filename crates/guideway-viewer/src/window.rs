@@ -11,6 +11,7 @@ use crate::background::{RedrawTimer, RepaintGate, RepaintHandle};
 use crate::launch_options::LaunchOptions;
 use crate::preferences::MIN_SIZE;
 use crate::services::{AppServices, WINDOW_ERROR};
+use crate::window_icon::window_icon;
 
 /// Opens the window and returns when it is closed. Must be called from the main thread.
 ///
@@ -26,6 +27,7 @@ pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), 
             .window_place
             .builder()
             .with_min_inner_size(MIN_SIZE)
+            .with_icon(window_icon())
             .with_drag_and_drop(true),
         // The window has no gradients, and dithering slows down software renderers.
         dithering: false,

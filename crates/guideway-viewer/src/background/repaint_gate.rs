@@ -9,6 +9,9 @@ use eframe::egui::{Context, Event, RawInput, Vec2};
 
 /// First frames, in which the parts of the window find their places, and which follow each other.
 const FIRST_FRAMES: u32 = 3;
+/// Frames that follow a click or a key: a button may change a part that is shown before it, and a
+/// menu finds its size in its first frame.
+const LATE_FRAMES: u32 = 2;
 
 /// Admits what the window and its threads ask for, and leaves out what egui adds.
 pub(crate) struct RepaintGate {
@@ -16,8 +19,8 @@ pub(crate) struct RepaintGate {
     window_thread: ThreadId,
     /// True from the begin of a frame until the window is shown: egui makes its requests then.
     is_beginning: AtomicBool,
-    /// True if another frame follows this one.
-    is_unsettled: AtomicBool,
+    /// Frames that follow this one.
+    due: AtomicU32,
     frames: AtomicU32,
 }
 
@@ -27,7 +30,7 @@ impl RepaintGate {
         Self {
             window_thread: thread::current().id(),
             is_beginning: AtomicBool::new(false),
-            is_unsettled: AtomicBool::new(false),
+            due: AtomicU32::new(0),
             frames: AtomicU32::new(0),
         }
     }
@@ -36,8 +39,11 @@ impl RepaintGate {
     pub(crate) fn begin(&self, input: &RawInput) {
         self.is_beginning.store(true, Ordering::SeqCst);
         let is_first = self.frames.fetch_add(1, Ordering::SeqCst) < FIRST_FRAMES;
-        let is_unsettled = is_first || input.events.iter().any(changes_parts_late);
-        self.is_unsettled.store(is_unsettled, Ordering::SeqCst);
+        let due = match input.events.iter().any(changes_parts_late) {
+            true => LATE_FRAMES,
+            false => u32::from(is_first),
+        };
+        self.due.fetch_max(due, Ordering::SeqCst);
     }
 
     /// The window is about to be shown: requests count from now on.
@@ -45,7 +51,9 @@ impl RepaintGate {
         self.is_beginning.store(false, Ordering::SeqCst);
         // egui spreads a turn of the wheel over several frames.
         let is_scrolling = ctx.input(|input| input.smooth_scroll_delta() != Vec2::ZERO);
-        if self.is_unsettled.swap(false, Ordering::SeqCst) || is_scrolling {
+        let due = self.due.load(Ordering::SeqCst);
+        self.due.store(due.saturating_sub(1), Ordering::SeqCst);
+        if due > 0 || is_scrolling {
             ctx.request_repaint();
         }
     }
@@ -58,9 +66,13 @@ impl RepaintGate {
 }
 
 /// Returns `true` if an event may change a part of the window that is shown before the part which
-/// handles it, as a button does. Where the pointer is, is known before all parts.
+/// handles it, as a button does. All parts know the place of the pointer, and a wheel goes on by
+/// itself.
 fn changes_parts_late(event: &Event) -> bool {
-    !matches!(event, Event::PointerMoved(_) | Event::MouseMoved(_))
+    !matches!(
+        event,
+        Event::PointerMoved(_) | Event::MouseMoved(_) | Event::MouseWheel { .. }
+    )
 }
 
 #[cfg(test)]
@@ -114,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn one_frame_per_movement_and_two_per_click() {
+    fn one_frame_per_movement_and_three_per_click() {
         let at = Pos2::new(5.0, 5.0);
         let moved = vec![Event::PointerMoved(at)];
         assert_eq!(frames_for(moved.clone(), false), 3, "what egui does alone");
@@ -125,7 +137,7 @@ mod tests {
             pressed: true,
             modifiers: Modifiers::NONE,
         };
-        assert_eq!(frames_for(vec![press], true), 2);
+        assert_eq!(frames_for(vec![press], true), 3);
         assert_eq!(frames_for(vec![], true), 1);
     }
 

@@ -79,8 +79,10 @@ mod tests {
     use super::*;
 
     fn changed() -> Preferences {
-        let mut preferences = Preferences::default();
-        preferences.panel_width = 410.0;
+        let mut preferences = Preferences {
+            panel_width: 410.0,
+            ..Preferences::default()
+        };
         preferences.look.has_arrows = false;
         preferences.look.width_m = 0.35;
         preferences.window.position = Some([3.0, 40.0]);

@@ -137,8 +137,10 @@ mod tests {
     use super::*;
 
     fn project() -> Project {
-        let mut look = DisplaySettings::default();
-        look.has_labels = false;
+        let look = DisplaySettings {
+            has_labels: false,
+            ..DisplaySettings::default()
+        };
         Project {
             version: 1,
             active: 1,

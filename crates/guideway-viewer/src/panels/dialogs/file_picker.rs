@@ -23,8 +23,8 @@ pub(crate) struct FilePicker {
 struct OpenPicker {
     kind: PromptKind,
     suggestion: PathBuf,
-    answer: BackgroundTask<FileAnswer>,
-    since: Instant,
+    /// The answer, and the time that it took: the window may look at it much later.
+    answer: BackgroundTask<(FileAnswer, Duration)>,
 }
 
 impl FilePicker {
@@ -44,8 +44,10 @@ impl FilePicker {
         self.open = Some(OpenPicker {
             kind,
             suggestion,
-            answer: BackgroundTask::start(repaint, pending),
-            since: Instant::now(),
+            answer: BackgroundTask::start(repaint, || {
+                let since = Instant::now();
+                (pending(), since.elapsed())
+            }),
         });
         true
     }
@@ -64,10 +66,9 @@ impl FilePicker {
         let open = self.open.as_ref()?;
         if let Some(answer) = open.answer.result() {
             let open = self.open.take()?;
-            let is_early = open.since.elapsed() < SHORTEST_ANSWER;
             return match answer {
-                Ok(FileAnswer::Chosen(path)) => Some(Picked::File(open.kind, path)),
-                Ok(FileAnswer::Cancelled) if !is_early => None,
+                Ok((FileAnswer::Chosen(path), _)) => Some(Picked::File(open.kind, path)),
+                Ok((FileAnswer::Cancelled, took)) if took >= SHORTEST_ANSWER => None,
                 _ => Some(Picked::Typed(open.kind, open.suggestion)),
             };
         }

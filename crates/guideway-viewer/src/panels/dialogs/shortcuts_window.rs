@@ -1,11 +1,14 @@
 //! The window that lists all keyboard shortcuts and mouse gestures.
 
-use eframe::egui::{Context, Grid, ScrollArea, Ui, Window};
+use eframe::egui::{Context, Grid, ScrollArea, Ui, Vec2, Window};
 
 use crate::command::{MENUS, shortcuts_of};
 
 /// Height at which all shortcuts show without scrolling, in points.
 const HEIGHT: f32 = 740.0;
+
+/// Space of the title bar and edges around the content, in points.
+const MARGIN: Vec2 = Vec2::new(32.0, 64.0);
 
 /// Mouse gestures and modifiers.
 const GESTURES: [&str; 4] = [
@@ -26,8 +29,10 @@ impl ShortcutsWindow {
     pub(super) fn show(&mut self, ctx: &Context) {
         if self.is_open {
             let window = Window::new("Keyboard shortcuts").open(&mut self.is_open);
-            window.default_height(HEIGHT).show(ctx, |ui| {
-                ScrollArea::vertical().show(ui, content);
+            let screen = ctx.content_rect().size() - MARGIN;
+            let window = window.default_height(HEIGHT).constrain(true);
+            window.max_size(screen).show(ctx, |ui| {
+                ScrollArea::both().show(ui, content);
             });
         }
     }

@@ -1,11 +1,17 @@
 //! The file dialogs of the desktop: by the XDG portal or zenity on Linux, by the system elsewhere.
 
+use std::env;
+use std::path::PathBuf;
+
 use guideway_viewer::{FileAnswer, FileFormat, FileQuestion, PendingFileAnswer};
 use rfd::{AsyncFileDialog, FileHandle};
 
-/// Opens the dialog. The answer comes on the thread that waits for it; macOS wants the dialog
-/// itself on the main thread, on which the window calls this.
+/// Opens the dialog; `None` if the desktop has none. The answer comes on the thread that waits for
+/// it; macOS wants the dialog itself on the main thread, on which the window calls this.
 pub(super) fn ask(question: &FileQuestion) -> Option<PendingFileAnswer> {
+    if !has_desktop() {
+        return None;
+    }
     let mut dialog = AsyncFileDialog::new().set_title(&question.title);
     if let Some(folder) = &question.folder {
         // Portals do not take relative names.
@@ -24,6 +30,18 @@ pub(super) fn ask(question: &FileQuestion) -> Option<PendingFileAnswer> {
             Box::new(move || answer(pollster::block_on(chosen)))
         }
     })
+}
+
+/// Returns `true` if something may show dialogs: on Linux a session bus, or zenity.
+fn has_desktop() -> bool {
+    if !cfg!(target_os = "linux") {
+        return true;
+    }
+    let is_set = |name: &str| env::var_os(name).is_some_and(|value| !value.is_empty());
+    let socket = env::var_os("XDG_RUNTIME_DIR").map(|folder| PathBuf::from(folder).join("bus"));
+    let path = env::var_os("PATH").unwrap_or_default();
+    let has_zenity = || env::split_paths(&path).any(|folder| folder.join("zenity").is_file());
+    is_set("DBUS_SESSION_BUS_ADDRESS") || socket.is_some_and(|bus| bus.exists()) || has_zenity()
 }
 
 fn answer(chosen: Option<FileHandle>) -> FileAnswer {
