@@ -111,7 +111,7 @@ impl Picture {
         }
     }
 
-    /// What a PNG file of the picture says about itself: program, title, bounds and scale.
+    /// The texts of a PNG file of the picture: program, title, bounds and scale.
     ///
     /// # Errors
     /// See [`Picture::view`].

@@ -106,6 +106,8 @@ impl App {
             // Without selected elements, a text of a panel may be meant.
             Event::Copy if self.has_selection() => self.take_command(Command::Copy, ctx),
             Event::Cut if self.has_selection() => self.take_command(Command::Cut, ctx),
+            // Cells of the table take it themselves.
+            Event::Paste(_) if self.bottom.table.takes_paste() => false,
             Event::Paste(_) => self.take_command(Command::Paste, ctx),
             _ => false,
         }

@@ -26,8 +26,6 @@ pub(crate) struct Layer {
     pub(super) path: PathBuf,
     pub(crate) is_visible: bool,
     pub(crate) look: LayerLook,
-    /// The only level that is shown; `None` shows all.
-    pub(crate) level: Option<u32>,
     pub(crate) slot: DocumentSlot,
     pub(crate) picture: LayerPicture,
     pub(crate) tasks: BackgroundTasks,
@@ -68,7 +66,6 @@ impl Layer {
             path,
             is_visible: true,
             look: LayerLook::default(),
-            level: None,
             slot: DocumentSlot::default(),
             tasks: BackgroundTasks::new(options.clone()),
             save: SaveState::default(),
@@ -190,10 +187,8 @@ impl Layer {
     ) {
         self.tasks.set_options(options.clone());
         let LayerContext { services, repaint } = context.clone();
-        let source = match self.made_by {
-            Some(make) => Source::Made(make),
-            None => Source::File(self.path.clone()),
-        };
+        let of_file = || Source::File(self.path.clone());
+        let source = self.made_by.map_or_else(of_file, Source::Made);
         let stamp = services.file_stamp(&self.path);
         self.save.begin_load(stamp.filter(|_| !self.is_untitled()));
         self.loader = Some(Loader::start(services, source, unsaved, options, repaint));
@@ -380,7 +375,6 @@ impl Layer {
         let queue = self.picture.queue();
         document.on_edit(move |edit| queue.edit(edit.clone()));
         let is_reload = self.slot.replace(document);
-        self.level = None;
         self.tasks.reset_findings();
         if is_reload || std::mem::take(&mut self.owes_scene) {
             self.send_scene();

@@ -121,27 +121,21 @@ impl LayerRow {
             ui.add(slider).on_hover_text("Opacity of the paths");
             show_color(ui, look, settings);
         });
-        let levels = layer.document().map_or(Vec::new(), levels);
-        if levels.len() > 1 {
-            self.show_levels(ui, layer, levels, actions);
+        if let Some(document) = layer.document().filter(|d| d.layout().levels.len() > 1) {
+            self.show_levels(ui, document, actions);
         }
     }
 
     /// Shows the levels, the shown one marked.
-    fn show_levels(
-        &self,
-        ui: &mut Ui,
-        layer: &mut Layer,
-        levels: Vec<(u32, String)>,
-        actions: &mut Vec<Action>,
-    ) {
+    fn show_levels(&self, ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
         let all = [(None, "All levels".to_owned())].into_iter();
-        let each = levels.into_iter().map(|(level, name)| (Some(level), name));
+        let each = levels(document)
+            .into_iter()
+            .map(|(level, name)| (Some(level), name));
         for (level, name) in all.chain(each) {
-            let is_shown = layer.level == level;
+            let is_shown = document.level() == level;
             let button = Button::selectable(is_shown, name).truncate();
             if ui.add(button).clicked() && !is_shown {
-                layer.level = level;
                 let show = EditTask::view_change(move |document| document.show_level(level));
                 actions.push(Action::Activate(self.index));
                 actions.push(Action::Edit(show));

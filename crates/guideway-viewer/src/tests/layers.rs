@@ -118,7 +118,7 @@ fn level_is_marked_and_shown_alone() {
     window.harness.run_steps(3);
     window.harness.get_by_label("Mezzanine").click();
     window.harness.run_steps(3);
-    assert_eq!(window.app().files.layers()[0].level, Some(1));
+    assert_eq!(window.document().level(), Some(1));
     assert_eq!(window.document().scene().hidden_count(), 2);
     let is_marked = |window: &TestWindow, name: &str| {
         let label = window.harness.get_by_label(name);

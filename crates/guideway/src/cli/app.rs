@@ -27,8 +27,8 @@ use crate::out_of_memory;
     version,
     subcommand_required = true,
     arg_required_else_help = true,
-    after_help = "Start with `guideway demo`, which needs no file. `guideway FILE` opens the window, \
-        or prints a summary where there is no display.\n\n\
+    after_help = "Start with `guideway demo`, which needs no file. `guideway FILE` opens the \
+        window, or prints a summary where there is no display.\n\n\
         Exit codes: 0 success, 1 findings of `check` at or above its failing level, or \
         differences under `diff --exit-code`, 2 an error, 130 stopped by Ctrl-C."
 )]

@@ -104,7 +104,7 @@ mod tests {
             fs::write(folder.path().join(name), "").unwrap();
         }
         fs::create_dir(folder.path().join("plans")).unwrap();
-        let base = format!("{}/", folder.path().display());
+        let base = folder.path().join("").to_string_lossy().into_owned();
         let done = |start: &str| {
             let done = complete(&format!("{base}{start}"));
             (done.text.replace(&base, ""), done.candidates.len())
