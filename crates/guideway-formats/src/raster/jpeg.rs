@@ -29,7 +29,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, Problem> {
     let options = DecoderOptions::default()
         .set_max_width(MAX_SIDE)
         .set_max_height(MAX_SIDE)
-        // A file that ends early is an error, not a picture with a gray rest.
+        // Rows that are missing are an error, not a gray rest.
         .set_strict_mode(true)
         .jpeg_set_out_colorspace(ColorSpace::RGB);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
@@ -39,6 +39,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, Problem> {
     };
     let (width, height) = (usize::from(info.width), usize::from(info.height));
     let count = check_pixels(width as u64, height as u64)?;
+    if !has_end(bytes) {
+        return Err(problem(&DecodeErrors::ExhaustedData, bytes.len()));
+    }
     let samples = decoder.decode().map_err(fail)?;
     if samples.len() != 3 * count {
         return Err(damaged(format!(
@@ -54,6 +57,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, Problem> {
         has_alpha: false,
         png: None,
     })
+}
+
+/// Returns `true` if the last scan has an end: the decoder takes missing last bytes for zeros.
+fn has_end(bytes: &[u8]) -> bool {
+    let is = |marker: u8| move |two: &[u8]| two == [0xFF, marker];
+    let scan = bytes.windows(2).rposition(is(0xDA));
+    scan.is_some_and(|at| bytes[at..].windows(2).any(is(0xD9)))
 }
 
 fn problem(error: &DecodeErrors, size: usize) -> Problem {
@@ -105,7 +115,7 @@ mod tests {
 
     #[test]
     fn each_damage_is_an_error_and_none_a_panic() {
-        for end in 3..HALVES.len() - 2 {
+        for end in 3..HALVES.len() {
             let error = read(&HALVES[..end]).err();
             assert!(error.is_some(), "cut after {end} bytes");
         }
