@@ -225,22 +225,10 @@ impl App {
     }
 }
 
-/// The level whose paths alone are shown.
+/// The identifier of the level that is shown alone.
 fn shown_level(document: &Document) -> Option<String> {
-    let (scene, layout) = (document.scene(), document.layout());
-    if scene.hidden_count() == 0 {
-        return None;
-    }
-    let mut levels = scene.draw_order().iter();
-    let level = |row: &u32| layout.paths.get(*row as usize).level();
-    let first = level(levels.next()?)?;
-    let is_one = levels.all(|row| level(row) == Some(first));
-    is_one.then(|| {
-        layout
-            .levels
-            .get(first as usize)
-            .map(|level| level.id.clone())
-    })?
+    let level = document.layout().levels.get(document.level()? as usize);
+    level.map(|level| level.id.clone())
 }
 
 /// The name with the end by which projects are known.

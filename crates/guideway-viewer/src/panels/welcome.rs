@@ -11,7 +11,7 @@ use crate::command::{Command, shortcuts_of};
 use crate::files::OpenFiles;
 
 /// Commands of the card.
-const COMMANDS: [Command; 2] = [Command::Open, Command::ExampleSite];
+const COMMANDS: [Command; 3] = [Command::NewLayout, Command::Open, Command::ExampleSite];
 /// Width of the card, in points.
 const WIDTH: f32 = 320.0;
 /// Size of the name of the program, in points.
