@@ -98,12 +98,18 @@ impl Router<'_> {
                 format!("rotation is forbidden at {node}")
             }
             None => {
-                let nodes = (0..self.arcs.node_count()).filter(|&node| self.arcs.has(node));
-                let all = nodes.count();
                 let of = self
                     .vehicle_type
                     .map_or(String::new(), |t| format!(" of type \"{t}\""));
-                format!("vehicles{of} reach {reached} of {all} nodes from there")
+                let is_away = |place: &&Place| !place.nodes.iter().any(|&n| self.arcs.has(n));
+                match [from, to].into_iter().find(is_away) {
+                    Some(place) => format!("no path of vehicles{of} is at \"{}\"", place.name),
+                    None => {
+                        let nodes = (0..self.arcs.node_count()).filter(|&n| self.arcs.has(n));
+                        let all = nodes.count();
+                        format!("vehicles{of} reach {reached} of {all} nodes from there")
+                    }
+                }
             }
         };
         RouteError::NoWay {

@@ -44,7 +44,8 @@ fn walls_and_doors_are_no_ways() {
         let layout = layout(element);
         let router = Router::new(&layout, None, &RouteOptions::default()).expect("a router");
         let [from, to] = ["a", "d"].map(|name| router.place(name).expect("a node"));
-        assert!(router.route(&from, &to).is_err(), "{element}");
+        let error = router.route(&from, &to).unwrap_err().to_string();
+        assert!(error.contains("no path of vehicles is at \"d\""), "{error}");
     }
 }
 

@@ -225,7 +225,7 @@ fn errors_name_the_file_and_the_remedy() {
     let output = render(text(&map), &picture);
     assert_eq!(output.status.code(), Some(2));
     assert!(
-        stderr(&output).contains("images/hall.pgm"),
+        stderr(&output).contains("images/hall.png"),
         "{}",
         stderr(&output)
     );

@@ -40,6 +40,8 @@ fn assert_equals_render(picture: &Path, file: &Path, rendered: &Path) {
     let factor = f64::from(width) / CANVAS_PX;
     let status = Command::new(env!("CARGO_BIN_EXE_guideway"))
         .args(["render", "--quiet", "--size", &format!("{width}x{height}")])
+        // The color of paths in the window.
+        .args(["--color", "5a6b7f"])
         .args(["--min-px", &format!("{}", 1.5 * factor)])
         .args(["--max-px", &format!("{}", 12.0 * factor)])
         .arg(file)
@@ -130,8 +132,8 @@ fn edits_survive_a_crash() {
         session.keys(&["f"]);
         thread::sleep(Duration::from_secs(1));
         // Selects the mezzanine by a box, then drags one of its paths, which moves the selection.
-        session.drag(&[(590, 130), (600, 140), (800, 200), (875, 215)]);
-        session.drag(&[(700, 145), (700, 140), (705, 120), (710, 105)]);
+        session.drag(&[(590, 142), (600, 152), (800, 212), (875, 227)]);
+        session.drag(&[(700, 157), (700, 152), (705, 132), (710, 117)]);
         // The file of the last try would hide a failure of this one.
         let _ = fs::remove_file(&site);
         session.saved_as(&site)
