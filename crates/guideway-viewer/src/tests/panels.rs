@@ -130,9 +130,9 @@ fn value_of_one_vehicle_type_is_added_and_removed() {
     window.harness.run_steps(3);
     assert_eq!(own(&mut window), Some(0.75));
     // The forklift has taken over the value that all had.
-    let removals: Vec<_> = window.harness.get_all_by_label("×").collect();
-    removals[removals.len() - 1].click();
-    drop(removals);
+    let removals = window.harness.get_all_by_label("×");
+    let lowest = removals.max_by(|a, b| a.rect().top().total_cmp(&b.rect().top()));
+    lowest.expect("the button of the type").click();
     window.harness.run_steps(3);
     assert_eq!(own(&mut window), None);
     window.key(CTRL, Key::Z);

@@ -96,8 +96,9 @@ fn keys_and_mouse_edit_and_save_a_site() {
     let copies_gone = session.saved_as(&folder.path().join("gone.arrow"));
     assert_eq!(copies_gone.paths.len(), paths, "the copies were selected");
 
-    session.keys(&["d"]);
-    for (x, y) in [(200, 200), (400, 300), (600, 250)] {
+    // A curve below the site, away from what it would snap to.
+    session.keys(&["c"]);
+    for (x, y) in [(150, 715), (300, 735), (450, 715)] {
         session.click(x, y);
     }
     session.keys(&["Return"]);
