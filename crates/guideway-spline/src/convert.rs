@@ -73,11 +73,12 @@ pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Convers
     fit.done
 }
 
-/// Appends a Bezier curve of degree 1 to [`MAX_DEGREE`]: degrees 1 to 3 exactly, higher ones as
-/// [`nurbs_to_runs`] does.
+/// Appends a Bezier curve of degree 1 to [`MAX_DEGREE`](crate::MAX_DEGREE): degrees 1 to 3 exactly,
+/// higher ones as [`nurbs_to_runs`] does.
 ///
 /// # Errors
-/// When there are fewer than 2 points or more than [`MAX_DEGREE`] + 1, or a point is not finite.
+/// When there are fewer than 2 points or more than [`MAX_DEGREE`](crate::MAX_DEGREE) + 1, or a point
+/// is not finite.
 pub fn bezier_to_runs(
     points: &[Point<f64>],
     tolerance_m: f64,

@@ -193,5 +193,5 @@ fn kinds(found: &Diagnostics) -> Vec<Kind> {
 
 fn size(input: &Input) -> Option<u64> {
     let metadata = std::fs::metadata(&input.path).ok()?;
-    metadata.is_file().then(|| metadata.len())
+    metadata.is_file().then_some(metadata.len())
 }
