@@ -77,8 +77,8 @@ pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Convers
 /// higher ones as [`nurbs_to_runs`] does.
 ///
 /// # Errors
-/// When there are fewer than 2 points or more than [`MAX_DEGREE`](crate::MAX_DEGREE) + 1, or a point
-/// is not finite.
+/// When there are fewer than 2 points or more than [`MAX_DEGREE`](crate::MAX_DEGREE) + 1, or a
+/// point is not finite.
 pub fn bezier_to_runs(
     points: &[Point<f64>],
     tolerance_m: f64,
