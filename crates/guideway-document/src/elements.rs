@@ -28,12 +28,20 @@ impl Elements {
     /// A single element.
     pub fn of(element: Element) -> Self {
         let mut elements = Self::default();
-        match element {
-            Element::Path(row) => elements.paths.insert(row),
-            Element::Node(row) => elements.nodes.insert(row),
-            Element::Station(row) => elements.stations.insert(row),
-        };
+        elements.insert(element);
         elements
+    }
+
+    /// Adds an element.
+    pub fn insert(&mut self, element: Element) {
+        let (of, row) = element.table_row();
+        self.rows_mut(of).insert(row);
+    }
+
+    /// Returns `true` if an element is among them.
+    pub fn contains(&self, element: Element) -> bool {
+        let (of, row) = element.table_row();
+        self.rows(of).contains(row)
     }
 
     /// The rows of a table.

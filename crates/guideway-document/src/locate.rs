@@ -1,7 +1,6 @@
 //! Locates the elements that findings name, and the position of elements.
 
 use guideway_layout::{Layout, Member, Origin, Place};
-use guideway_scene::Table;
 use guideway_spline::Bounds;
 
 use crate::document::Document;
@@ -43,11 +42,7 @@ fn named(layout: &Layout, place: &Place) -> Option<Element> {
 impl Document {
     /// Returns `true` if an element exists and is not removed.
     pub fn contains(&self, element: Element) -> bool {
-        let (of, row) = match element {
-            Element::Path(row) => (Table::Paths, row),
-            Element::Node(row) => (Table::Nodes, row),
-            Element::Station(row) => (Table::Stations, row),
-        };
+        let (of, row) = element.table_row();
         self.scene.exists(of, row)
     }
 

@@ -191,10 +191,6 @@ impl Target {
     pub fn for_file(layout: &Layout, path: &Path) -> Option<Self> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let read = Self::of_source(layout);
-        let has_extension = |extension: &str| {
-            let own = path.extension();
-            own.is_some_and(|own| own.eq_ignore_ascii_case(extension))
-        };
         match (Self::of_file_name(&name), read) {
             (Some(Self::Lif1), Some(Self::Lif2)) => read,
             (Some(Self::Vda2), Some(Self::Vda3)) => read,
@@ -205,10 +201,16 @@ impl Target {
                 Some(
                     Self::Lif1 | Self::Lif2 | Self::GeoJson | Self::Nav2 | Self::Vda2 | Self::Vda3,
                 ),
-            ) if has_extension("json") => read,
-            (None, Some(Self::Rmf)) if has_extension("yaml") => read,
+            ) if has_extension(path, "json") => read,
+            (None, Some(Self::Rmf)) if has_extension(path, "yaml") => read,
             (named, _) => named,
         }
+    }
+
+    /// Returns `true` if only the source of a layout can tell the target of a file with this
+    /// extension: see [`Self::for_file`].
+    pub fn depends_on_source(path: &Path) -> bool {
+        has_extension(path, "json") || has_extension(path, "yaml")
     }
 
     /// Returns `true` if the target is a drawing, which holds the paths only.
@@ -254,6 +256,11 @@ impl Target {
         };
         Ok(losses)
     }
+}
+
+fn has_extension(path: &Path, extension: &str) -> bool {
+    let own = path.extension();
+    own.is_some_and(|own| own.eq_ignore_ascii_case(extension))
 }
 
 #[cfg(test)]

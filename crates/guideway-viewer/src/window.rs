@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn error_names_no_folder_of_the_builder() {
-        let error = "winit EventLoopError: os error at /root/.cargo/registry/linux/mod.rs:765: \
+        let error = "winit EventLoopError: os error at /home/me/.cargo/registry/linux/mod.rs:765: \
                      neither WAYLAND_DISPLAY nor DISPLAY is set";
         assert_eq!(
             without_source_path(error),

@@ -1,12 +1,11 @@
 //! Performs a fix.
 
 use guideway_layout::Direction;
-use guideway_scene::{EditError, Table};
+use guideway_scene::EditError;
 
 use super::Fix;
 use crate::document::Document;
 use crate::edit::{NewEdge, OperationError, ShapeError};
-use crate::element::Element;
 
 /// The reason why a fix changes nothing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -50,11 +49,7 @@ impl Document {
             Fix::Reverse(paths) => self.reverse(paths)?,
             Fix::Delete(elements) => self.delete(elements, true)?,
             Fix::Rename { element, id } => {
-                let (of, row) = match *element {
-                    Element::Path(row) => (Table::Paths, row),
-                    Element::Node(row) => (Table::Nodes, row),
-                    Element::Station(row) => (Table::Stations, row),
-                };
+                let (of, row) = element.table_row();
                 self.rename(of, row, id)?;
             }
         }

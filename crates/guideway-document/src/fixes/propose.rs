@@ -77,11 +77,7 @@ pub fn fixes(document: &Document, code: Code, element: Element) -> Vec<ProposedF
 pub fn fix_all(document: &Document, code: Code, elements: &[Element]) -> Option<ProposedFix> {
     let mut all = Elements::default();
     for &element in elements.iter().filter(|&&e| document.contains(e)) {
-        match element {
-            Element::Path(row) => all.paths.insert(row),
-            Element::Node(row) => all.nodes.insert(row),
-            Element::Station(row) => all.stations.insert(row),
-        };
+        all.insert(element);
     }
     let (label, fix) = match code {
         Code::NodeGap if !all.paths.is_empty() => (
@@ -183,11 +179,7 @@ fn two_way(document: &Document, nodes: &[u32]) -> Vec<ProposedFix> {
 /// A name like that of the element which no other one has.
 fn free_name(document: &Document, element: Element) -> String {
     let layout = document.layout();
-    let of = match element {
-        Element::Path(_) => Table::Paths,
-        Element::Node(_) => Table::Nodes,
-        Element::Station(_) => Table::Stations,
-    };
+    let (of, _) = element.table_row();
     let names: std::collections::HashSet<&str> = document
         .existing(of)
         .map(|row| of.id(layout, row))

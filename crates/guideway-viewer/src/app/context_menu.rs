@@ -41,12 +41,12 @@ impl App {
             return ContextPlace::Empty;
         };
         let selected = document.selected();
-        let (place, is_selected) = match element {
-            Element::Path(row) => (ContextPlace::Path, selected.paths.contains(row)),
-            Element::Node(row) => (ContextPlace::Node, selected.nodes.contains(row)),
-            Element::Station(row) => (ContextPlace::Station, selected.stations.contains(row)),
+        let place = match element {
+            Element::Path(_) => ContextPlace::Path,
+            Element::Node(_) => ContextPlace::Node,
+            Element::Station(_) => ContextPlace::Station,
         };
-        if !is_selected {
+        if !selected.contains(element) {
             self.edit(EditTask::view_change(move |document| {
                 document.select_elements(&Elements::of(element), SelectMode::Replace);
             }));

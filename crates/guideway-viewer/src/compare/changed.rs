@@ -73,11 +73,7 @@ impl Changed {
             changed.lines.push(ChangeLine {
                 kind,
                 text: text_of(of, &found, change),
-                element: match of {
-                    Table::Paths => Element::Path(row),
-                    Table::Nodes => Element::Node(row),
-                    Table::Stations => Element::Station(row),
-                },
+                element: Element::new(of, row),
             });
         }
         let groups = found.groups.iter();

@@ -1,5 +1,4 @@
-//! What the window remembers from one run to the next: look, place of the window, width of the
-//! side panel.
+//! Preferences: look, place of the window and width of the side panel, from one run to the next.
 //!
 //! | part | owns | file |
 //! |---|---|---|

@@ -47,11 +47,11 @@ mod tests {
 
     #[test]
     fn names_are_relative_to_the_folder_of_the_project() {
-        let project = Path::new("/work/site/hall.guideway-project.toml");
+        let project = Path::new("/plans/site/hall.guideway-project.toml");
         for (file, name) in [
-            ("/work/site/a.lif", "a.lif"),
-            ("/work/site/plans/b.png", "plans/b.png"),
-            ("/work/shared/c.dxf", "../shared/c.dxf"),
+            ("/plans/site/a.lif", "a.lif"),
+            ("/plans/site/plans/b.png", "plans/b.png"),
+            ("/plans/shared/c.dxf", "../shared/c.dxf"),
             ("/mnt/d.lif", "/mnt/d.lif"),
         ] {
             assert_eq!(relative_to(project, Path::new(file)).unwrap(), name);

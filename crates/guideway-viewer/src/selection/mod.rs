@@ -12,4 +12,4 @@ pub(crate) use commands::{DUPLICATE_OFFSET_PX, selection_command};
 pub(crate) use copied::CopiedElements;
 pub(crate) use exact_edit::ExactEdit;
 pub(crate) use find::Find;
-pub(crate) use prompted::{TextQuestion, prompted_edit, question};
+pub(crate) use prompted::{TextQuestion, level_names, prompted_edit, question};

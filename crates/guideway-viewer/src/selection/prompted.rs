@@ -1,8 +1,7 @@
 //! Commands that need a number or a name: fillet, weld, distribute, array, level, rename.
 
 use guideway_document::{Document, Element, Elements, ShapeError};
-use guideway_layout::UserError;
-use guideway_scene::Table;
+use guideway_layout::{Layout, UserError};
 use guideway_spline::Point;
 
 use super::arrange::{corners, selected_nodes, selected_paths};
@@ -42,7 +41,7 @@ pub(crate) fn question(
         Command::Array => something(document)
             .and_then(|()| ask("Number of copies, and the step x, y in m", "1, 1, 0")),
         Command::MoveToLevel => something(document).and_then(|()| {
-            let names = level_names(document).join(", ");
+            let names = level_names(document.layout()).join(", ");
             ask(&format!("Level, one of: {names}"), "")
         }),
         Command::Rename => {
@@ -108,12 +107,7 @@ pub(crate) fn prompted_edit(command: Command, text: &str) -> Result<EditTask, St
             Ok::<(), String>(())
         }),
         Command::Rename => EditTask::edit(move |document: &mut Document| {
-            let element = only_element(document.selected())?;
-            let (of, row) = match element {
-                Element::Path(row) => (Table::Paths, row),
-                Element::Node(row) => (Table::Nodes, row),
-                Element::Station(row) => (Table::Stations, row),
-            };
+            let (of, row) = only_element(document.selected())?.table_row();
             let renamed = document.rename(of, row, &text);
             renamed.map_err(|error| UserError::from(ShapeError::from(error)))
         }),
@@ -178,8 +172,9 @@ fn only_element(selected: &Elements) -> Result<Element, UserError> {
     }
 }
 
-fn level_names(document: &Document) -> Vec<&str> {
-    let levels = document.layout().levels.iter();
+/// The names of all levels, or their identifiers where they have none.
+pub(crate) fn level_names(layout: &Layout) -> Vec<&str> {
+    let levels = layout.levels.iter();
     levels
         .map(|level| level.name.as_deref().unwrap_or(&level.id))
         .collect()
@@ -188,7 +183,7 @@ fn level_names(document: &Document) -> Vec<&str> {
 fn level_named(document: &Document, name: &str) -> Result<u32, String> {
     let level = document.layout().level_named(name);
     level.ok_or_else(|| {
-        let names = level_names(document).join(", ");
+        let names = level_names(document.layout()).join(", ");
         format!("there is no level `{name}`; the levels are: {names}")
     })
 }

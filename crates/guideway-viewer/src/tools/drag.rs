@@ -1,7 +1,7 @@
 //! Drags: selection boxes, moves of the selection, of nodes and of control points.
 
 use eframe::egui::Modifiers;
-use guideway_document::{Document, Element};
+use guideway_document::Document;
 use guideway_spline::{Affine, Bounds, Point};
 
 use super::gesture::{DragProgress, Gesture};
@@ -31,11 +31,7 @@ impl Tools {
             to_px: at_px,
         };
         let selected = document.selected();
-        let is_selected = |symbol| match symbol {
-            Element::Path(row) => selected.paths.contains(row),
-            Element::Node(row) => selected.nodes.contains(row),
-            Element::Station(row) => selected.stations.contains(row),
-        };
+        let is_selected = |symbol| selected.contains(symbol);
         self.gesture = match self.tool {
             Tool::Select if context.pick_symbol(at_px).is_some_and(is_selected) => Gesture::Move {
                 from_m: context.world(at_px),

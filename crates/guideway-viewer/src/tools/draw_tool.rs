@@ -6,14 +6,12 @@ use guideway_spline::Point;
 
 use super::gesture::Gesture;
 use super::tool::Tool;
-use super::tool_context::ToolContext;
+use super::tool_context::{ON_NODE_M, ToolContext};
 use super::tool_set::{ToolEffect, Tools};
 use crate::editing::EditTask;
 
 /// Points of an arc: start, end, and one between.
 const ARC_POINTS: usize = 3;
-/// Distance within which a point is at a node, in meters.
-const ON_NODE_M: f64 = 1e-3;
 
 impl Tools {
     /// Adds the place of a click or a typed place: a point of a path, a node or a station.

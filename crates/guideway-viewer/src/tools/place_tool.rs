@@ -4,12 +4,10 @@ use guideway_document::{Document, Element, Elements, SelectMode, ShapeError, Sna
 use guideway_layout::UserError;
 
 use super::tool::Tool;
-use super::tool_context::ToolContext;
+use super::tool_context::{ON_NODE_M, ToolContext};
 use super::tool_set::{ToolEffect, Tools};
 use crate::editing::EditTask;
 
-/// Distance within which a typed place is at a node, in meters.
-const ON_NODE_M: f64 = 1e-3;
 /// Distance of the pointer within which a node is meant to be on a path, in pixels.
 const ON_PATH_PX: f64 = 4.0;
 

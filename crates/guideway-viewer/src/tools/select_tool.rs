@@ -36,7 +36,8 @@ impl Tools {
     }
 }
 
-/// Of two paths on the same line, a click selects the topmost one and the next click the other.
+/// The path of a hit; a click selects the topmost of two paths on the same line, and the next click
+/// the other one.
 fn alternate_in_pair(hit: Hit, context: &ToolContext<'_>) -> Hit {
     let other = || {
         let document = context.document?;

@@ -6,6 +6,9 @@ use guideway_spline::Point;
 
 use super::hit_test::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES};
 
+/// Distance within which a given place is at a node, in meters.
+pub(super) const ON_NODE_M: f64 = 1e-3;
+
 /// View, document and settings at the time of a pointer event.
 #[derive(Clone, Copy)]
 pub(crate) struct ToolContext<'a> {

@@ -49,11 +49,6 @@ fn promised(output: &Path) -> Option<Target> {
     Target::of_file_name(&name.to_string_lossy())
 }
 
-fn has_extension(file: &Path, extension: &str) -> bool {
-    let own = file.extension();
-    own.is_some_and(|own| own.eq_ignore_ascii_case(extension))
-}
-
 /// Says that `--to` selects another format than the extension promises.
 fn contradiction(target: Target, output: &Path) -> Option<String> {
     let promised = promised(output).filter(|promised| {
@@ -157,9 +152,7 @@ fn write_stdout(target: Target, layout: &Layout) -> Result<(Losses, u64), UserEr
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     // An unknown extension must not wait for the read; the source decides about these two.
-    let is_of_source = ["json", "yaml"]
-        .iter()
-        .any(|e| has_extension(&args.output, e));
+    let is_of_source = Target::depends_on_source(&args.output);
     if args.to.is_none() && !is_of_source && promised(&args.output).is_none() {
         return Err(no_target(&args.output));
     }

@@ -6,8 +6,7 @@
 //! | `split`, `crossings` | selected paths, a point | pieces of paths between nodes |
 //! | `join` | a node with two paths | one path |
 //! | `weld` | selected paths, a distance | fewer nodes |
-//! | `attach` | selected paths | paths that end at their nodes |
-//! | `straighten` | selected paths | lines |
+//! | `reshape` | selected paths | paths that end at their nodes; lines |
 //! | `align` | nodes | nodes on a line, or evenly spaced |
 //! | `fillet`, `arms` | a node at a corner, a radius | an arc between two nodes |
 //! | `connect` | two nodes, tangents | a curve between them: arc or spline |
@@ -17,7 +16,6 @@
 
 mod align;
 mod arms;
-mod attach;
 mod connect;
 mod crossings;
 mod drawing;
@@ -25,8 +23,8 @@ mod error;
 mod fillet;
 mod join;
 mod plan;
+mod reshape;
 mod split;
-mod straighten;
 mod template;
 mod weld;
 

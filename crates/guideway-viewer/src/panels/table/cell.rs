@@ -7,6 +7,7 @@ use guideway_spline::Point;
 
 use super::super::properties::{FieldKind, TypedValue, kind_of};
 use crate::editing::EditTask;
+use crate::selection::level_names;
 
 /// The text of a cell; empty without a value. Values that differ per vehicle type are listed.
 pub(super) fn cell_text(layout: &Layout, of: Table, column: &Column, row: u32) -> String {
@@ -194,22 +195,11 @@ fn level_named(layout: &Layout, text: &str) -> Result<Option<u32>, String> {
     if text.is_empty() {
         return Ok(None);
     }
-    let mut levels = layout.levels.iter().zip(0..);
-    let found = levels.find(|(level, _)| level.name.as_deref() == Some(text) || level.id == text);
-    match found {
-        Some((_, row)) => Ok(Some(row)),
-        None => {
-            let names = layout
-                .levels
-                .iter()
-                .map(|l| l.name.as_ref().unwrap_or(&l.id));
-            let names: Vec<&str> = names.map(String::as_str).collect();
-            Err(format!(
-                "no level is called {text}; choose one of {}",
-                names.join(", ")
-            ))
-        }
-    }
+    let level = layout.level_named(text).map(Some);
+    level.ok_or_else(|| {
+        let names = level_names(layout).join(", ");
+        format!("no level is called {text}; choose one of {names}")
+    })
 }
 
 #[cfg(test)]

@@ -46,16 +46,17 @@ fn hidden_levels(layout: &Layout) -> Option<String> {
         let others = &drawn[at + 1..];
         others.iter().any(|(_, b)| overlap(a, b) > 0.5)
     });
+    if !is_over {
+        return None;
+    }
     let names = drawn
         .iter()
         .map(|(level, _)| level.name.as_ref().unwrap_or(&level.id));
     let names: Vec<String> = names.map(|name| shown_text(name).into_owned()).collect();
-    is_over.then(|| {
-        format!(
-            "levels lie over each other: {}; `--level NAME` draws one",
-            names.join(", ")
-        )
-    })
+    Some(format!(
+        "levels lie over each other: {}; `--level NAME` draws one",
+        names.join(", ")
+    ))
 }
 
 /// The area that two boxes share, as a share of the smaller one.
