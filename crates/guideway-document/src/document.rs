@@ -8,6 +8,7 @@ use guideway_scene::{
 };
 use guideway_spline::{Bounds, Point};
 
+use crate::PathSet;
 use crate::edit_observer::EditObserver;
 use crate::elements::Elements;
 use crate::history::History;
@@ -24,8 +25,10 @@ pub struct Document {
     pub(crate) index: Index,
     /// Shared with the undo steps, most of which do not change it.
     pub(crate) selection: Arc<Elements>,
-    /// The only level that is shown; `None` shows all.
+    /// The level on which elements are drawn; with `None` their nodes decide.
     pub(crate) level: Option<u32>,
+    /// Rows of the levels that are not shown.
+    pub(crate) hidden_levels: PathSet,
     pub(crate) history: History,
     pub(crate) observer: EditObserver,
     /// Entries since the last [`Document::take_journal_entries`].
@@ -50,6 +53,7 @@ impl Document {
             scene,
             selection: Arc::default(),
             level: None,
+            hidden_levels: PathSet::new(),
             history: History::default(),
             observer: EditObserver::default(),
             journal_entries: Vec::new(),
@@ -67,14 +71,15 @@ impl Document {
         self.scene.layout()
     }
 
-    /// The only level that is shown; `None` shows all. See [`Self::show_level`].
+    /// The level on which elements are drawn; with `None` their nodes decide. See
+    /// [`Self::show_level`].
     pub fn level(&self) -> Option<u32> {
         self.level
     }
 
     /// Returns `true` if elements of a level are shown. Elements without a level belong to all.
     pub fn shows_level(&self, level: Option<u32>) -> bool {
-        let is_here = level.is_none() || self.level.is_none() || level == self.level;
+        let is_here = level.is_none_or(|level| !self.hidden_levels.contains(level));
         is_here && self.scene.shows_level(level)
     }
 

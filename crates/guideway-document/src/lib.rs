@@ -34,7 +34,6 @@ mod search;
 mod selection;
 mod snap;
 mod snapshot;
-pub mod text_format;
 mod view_history;
 
 pub use change::{Change, NodeMoves};
@@ -46,6 +45,7 @@ pub use edit::{
 pub use element::Element;
 pub use elements::Elements;
 pub use fixes::{Fix, FixError, ProposedFix, fix_all, fixes, has_fixes};
+pub use guideway_layout::text_format;
 pub use history::SavedState;
 pub use index::Index;
 pub use journal::{JournalEntry, ReplayProgress, count_records, replay};

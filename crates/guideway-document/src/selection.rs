@@ -102,15 +102,39 @@ impl Document {
         self.set_visibility(others.into_iter(), PathState::Hidden);
     }
 
-    /// Shows only what is on a level or on none; `None` shows all levels. Shows the hidden paths of
-    /// the level too.
+    /// Shows only what is on a level or on none, and draws there; `None` shows all levels. Shows the
+    /// hidden paths of the level too.
     pub fn show_level(&mut self, level: Option<u32>) {
         self.level = level;
+        let all = 0..self.layout().levels.len() as u32;
+        let others = all.filter(|row| level.is_some_and(|level| level != *row));
+        self.hidden_levels = others.collect();
+        self.apply_levels();
+    }
+
+    /// Shows or hides a level beside others. Elements are drawn on a shown level: on the first one,
+    /// if theirs is hidden.
+    pub fn set_level_shown(&mut self, level: u32, is_shown: bool) {
+        match is_shown {
+            true => self.hidden_levels.remove(level),
+            false => self.hidden_levels.insert(level),
+        };
+        let hidden = &self.hidden_levels;
+        let is_drawn = self.level.is_some_and(|level| !hidden.contains(level));
+        if !is_drawn && !hidden.is_empty() {
+            let mut all = 0..self.layout().levels.len() as u32;
+            self.level = all.find(|row| !hidden.contains(*row));
+        }
+        self.apply_levels();
+    }
+
+    /// Hides what is no longer on a shown level, and shows what is.
+    pub fn apply_levels(&mut self) {
         self.show_all();
         self.deselect_hidden();
     }
 
-    /// Shows all hidden paths of the shown level.
+    /// Shows all hidden paths of the shown levels.
     pub fn show_all(&mut self) {
         let mut states: [Vec<u32>; 2] = Default::default();
         for row in self.existing(Table::Paths) {

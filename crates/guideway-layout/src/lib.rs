@@ -19,6 +19,7 @@
 //! | `code`, `place`, `diagnostic`, `limits` | findings and limits of readers |
 //! | `user_error`, `near` | the error that the command and the window show, and names it suggests |
 //! | `merge` | joins layouts |
+//! | [`text_format`] | text for people of counts, lengths, names |
 //! | `compare` | differences between two layouts |
 //! | `check` | finds defects of geometry and topology |
 //!
@@ -67,6 +68,7 @@ mod source_text;
 mod stations;
 mod text;
 mod text_cells;
+pub mod text_format;
 mod type_entries;
 mod user_error;
 mod values;

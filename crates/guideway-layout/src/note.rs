@@ -5,7 +5,7 @@ use std::fmt;
 use guideway_spline::{Affine, Point};
 
 /// Kind of a note.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum NoteKind {
     /// A text.
     #[default]

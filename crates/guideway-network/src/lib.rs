@@ -17,7 +17,7 @@ mod route;
 
 pub use analyze::{AnalyzeOptions, analyze};
 pub use build::{
-    BuildError, BuildOptions, BuildReport, DirectionRule, LayerRule, LeftNote, Network, NoteSource,
-    build,
+    BuildError, BuildOptions, BuildReport, DirectionRule, DrawingSources, LayerRule, LeftNote,
+    Network, NoteSource, build,
 };
 pub use route::{Place, Route, RouteError, RouteOptions, RouteRow, Router};

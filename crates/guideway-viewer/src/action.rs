@@ -52,6 +52,8 @@ pub(crate) enum Action {
     SetFloorPlan(String),
     /// Shows the floor plan at another place.
     PlaceFloorPlan(PlanPlacement),
+    /// Opens the network of the open panel as a new layout.
+    MakeNetwork,
     /// Edits the file of this index from now on.
     Activate(usize),
     /// Moves a file in the list of files.

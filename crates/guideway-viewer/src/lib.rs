@@ -20,6 +20,7 @@
 //! | preferences | what outlives a run | `preferences` |
 //! | project | files and look in one file | `project` |
 //! | route, compare | the route between two places; changes between two files | `route`, `compare` |
+//! | network draft | the network that a drawing would become | `network_draft` |
 //! | panels | menu bar, drawing bar, side panel, table, dialogs | `panels` |
 //! | app | all parts, and the routes between them | `app` |
 
@@ -37,6 +38,7 @@ mod file_purpose;
 mod files;
 mod launch_options;
 mod measure;
+mod network_draft;
 mod panels;
 mod preferences;
 mod project;

@@ -55,7 +55,7 @@ pub(super) fn find(
             }
             None => {
                 grid.add(crossing.position_m);
-                report.crossings += 1;
+                report.cut_at_crossing(crossing.position_m);
                 nodes.add(crossing.position_m, level)
             }
         };

@@ -50,7 +50,7 @@ pub(super) fn find(
         let Some(best) = feet.iter().min_by(by_distance) else {
             continue;
         };
-        report.junctions += 1;
+        report.cut_at_junction(best.position_m);
         if best.distance_m > SAME_M {
             // The curve keeps its shape, and the ends move onto it.
             nodes.positions_m[best.node as usize] = best.position_m;

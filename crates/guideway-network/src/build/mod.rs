@@ -16,6 +16,7 @@
 //! | `names` | stations and names of nodes from the notes of the drawing |
 //! | `pieces` | cuts curves and drops what has vanished or is drawn twice |
 //! | `assemble` | the layout: nodes, edges, properties, groups |
+//! | `sources` | lists the layers and notes that options can name |
 //! | `report`, `error` | what was done and left; why it stopped |
 
 mod assemble;
@@ -33,6 +34,7 @@ mod options;
 mod pieces;
 mod report;
 mod smooth;
+mod sources;
 mod weld;
 
 use guideway_layout::Layout;
@@ -41,6 +43,7 @@ pub use error::BuildError;
 pub use note_source::NoteSource;
 pub use options::{BuildOptions, DirectionRule, LayerRule};
 pub use report::{BuildReport, LeftNote};
+pub use sources::DrawingSources;
 
 use box_index::BoxIndex;
 

@@ -20,11 +20,15 @@ pub struct NoteSource {
 impl NoteSource {
     /// Returns `true` if a note is meant.
     pub(super) fn has(&self, note: &Note) -> bool {
-        let name = match note.kind {
+        self.kind == note.kind && self.is_of(Self::name_of(note))
+    }
+
+    /// The name by which a source means a note: that of its block, else of its layer.
+    pub(super) fn name_of(note: &Note) -> &str {
+        match note.kind {
             NoteKind::Block => &note.block,
             _ => &note.layer,
-        };
-        self.kind == note.kind && self.is_of(name)
+        }
     }
 
     /// Returns `true` if the source has notes of this layer, or of this block.

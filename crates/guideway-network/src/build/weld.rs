@@ -157,7 +157,7 @@ fn number(
         let far_m = members.iter().map(|&m| position(m).distance(at));
         let far_m = far_m.fold(0.0, f64::max);
         if far_m > SAME_M {
-            report.gaps += 1;
+            report.join(at);
         }
         report.largest_move_m = report.largest_move_m.max(far_m);
         for member in members {

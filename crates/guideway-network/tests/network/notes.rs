@@ -2,7 +2,7 @@
 
 use guideway_formats::{ReadOptions, read_bytes};
 use guideway_layout::{Layout, NoteKind};
-use guideway_network::BuildOptions;
+use guideway_network::{BuildOptions, DrawingSources};
 
 use crate::sketch::network;
 
@@ -92,5 +92,24 @@ fn circles_mark_stations_and_are_no_edges() {
     assert!(
         (at.x - 9.0).abs() < 1e-6 && (at.y - 0.2).abs() < 1e-6,
         "{at:?}"
+    );
+}
+
+#[test]
+fn sources_list_layers_and_notes_by_name() {
+    let layout = read(
+        DOCK,
+        "0|LINE|8|T|10|0|20|0|11|9|21|0|0|LINE|8|A|10|0|20|0|11|9|21|0|\
+         0|CIRCLE|8|C|10|9|20|0.2|40|0.5|0|TEXT|8|S|10|1|20|2|1|A-1|0|TEXT|8|S|10|2|20|2|1|A-2|\
+         0|INSERT|8|D|2|DOCK|10|30|20|20|",
+    );
+    let sources = DrawingSources::of(&layout);
+    let layers: Vec<(&str, u64)> = sources.layers.iter().map(|(n, c)| (&**n, *c)).collect();
+    assert_eq!(layers, [("A", 1), ("C", 1), ("T", 1)]);
+    let notes = sources.notes.iter();
+    let notes: Vec<String> = notes.map(|(source, n)| format!("{source} {n}")).collect();
+    assert_eq!(
+        notes,
+        ["text:S 2", "block:Dock 1", "point:D 1", "circle:C 1"]
     );
 }

@@ -1,4 +1,6 @@
-//! New layouts, the clipboard of elements, and edits of the selection by keys.
+//! New layouts, networks of drawings, the clipboard, and edits of the selection by keys.
+
+use std::sync::Arc;
 
 use eframe::egui::Context;
 use guideway_document::{Document, text_format};
@@ -9,12 +11,16 @@ use guideway_spline::{Affine, Point};
 use super::state::App;
 use crate::command::Command;
 use crate::editing::EditTask;
+use crate::files::{Layer, NewLayout};
+use crate::panels::SideTab;
 use crate::selection::{
     CopiedElements, DUPLICATE_OFFSET_PX, PointerPlace, arrange_command, question, selection_command,
 };
 use crate::services::AppServices;
 use crate::tools::HIT_RADIUS_PX;
 
+/// Opacity of a drawing below the network that was made of it.
+const DRAWING_OPACITY: f32 = 0.3;
 /// Name of the only level of a new layout.
 const FIRST_LEVEL: &str = "level 1";
 
@@ -22,8 +28,28 @@ impl App {
     /// Begins a new layout, beside the open files.
     pub(super) fn new_layout(&mut self) {
         let (method, options) = (self.methods.name(), self.settings.scene_options());
+        let (files, new) = (&mut self.files, NewLayout::By(empty_layout));
+        files.open_untitled(("untitled", "lif.json"), new, method, options);
+        self.tools.clear_hover();
+    }
+
+    /// Opens the network of the open panel as a new layout; the drawing is faded below it.
+    pub(super) fn make_network(&mut self) {
+        let Some(Ok(drafted)) = self.bottom.network.network(&self.files) else {
+            return;
+        };
+        let new = NewLayout::Ready(Arc::clone(&drafted.layout));
+        let (method, options) = (self.methods.name(), self.settings.scene_options());
+        let name = self.files.active().map(Layer::name).unwrap_or_default();
+        let stem = name.split('.').next().unwrap_or_default();
+        let stem = format!("{stem}-network");
+        if let Some(drawing) = self.files.active_mut() {
+            drawing.look.opacity = drawing.look.opacity.min(DRAWING_OPACITY);
+        }
         let files = &mut self.files;
-        files.open_untitled(("untitled", "lif.json"), empty_layout, method, options);
+        files.open_untitled((&stem, "lif.json"), new, method, options);
+        self.bottom.view = None;
+        self.side.open(SideTab::Findings);
         self.tools.clear_hover();
     }
 
@@ -133,7 +159,7 @@ impl App {
 }
 
 /// A layout of one level.
-#[expect(clippy::unnecessary_wraps, reason = "the form of `MakeLayout`")]
+#[expect(clippy::unnecessary_wraps, reason = "the form of `NewLayout::By`")]
 fn empty_layout(_: &dyn AppServices) -> Result<Layout, UserError> {
     let level = Level {
         id: FIRST_LEVEL.to_owned(),

@@ -10,7 +10,7 @@ use super::state::App;
 use crate::action::{Action, Export};
 use crate::command::Command;
 use crate::export::{PictureContent, png_picture};
-use crate::files::{MakeLayout, WriteOutcome};
+use crate::files::{NewLayout, WriteOutcome};
 use crate::panels::dialogs::{Question, Risk};
 use crate::services::{Job, PictureRequest};
 
@@ -24,9 +24,9 @@ impl App {
     /// Opens the example site, which has no file.
     pub(super) fn open_example(&mut self) {
         let (method, options) = (self.methods.name(), self.settings.scene_options());
-        let make: MakeLayout = |services| services.example_site();
+        let new = NewLayout::By(|services| services.example_site());
         let files = &mut self.files;
-        files.open_untitled(("example-site", "lif.json"), make, method, options);
+        files.open_untitled(("example-site", "lif.json"), new, method, options);
     }
 
     pub(super) fn close(&mut self, index: usize) {

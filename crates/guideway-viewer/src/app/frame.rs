@@ -187,6 +187,7 @@ impl App {
             marked_findings: self.findings.marked,
             route: self.shown_route(),
             changes: self.shown_changes(),
+            network: self.shown_network(),
         };
         painter.paint(&ui.painter_at(screen.rect));
     }

@@ -21,6 +21,8 @@ impl App {
         options: LaunchOptions,
     ) -> Self {
         let mut app = Self::new(repaint, services, options.method);
+        let (method, scene) = (app.methods.name(), app.settings.scene_options());
+        app.files.open_left_drafts(method, &scene);
         for file in options.files {
             app.open_any(file);
         }

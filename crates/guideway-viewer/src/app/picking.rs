@@ -7,6 +7,7 @@ use super::basics::tool_context_of;
 use super::state::App;
 use crate::compare::Changed;
 use crate::files::Layer;
+use crate::network_draft::Drafted;
 use crate::panels::BottomView;
 use crate::route::{FoundRoute, place_of};
 use crate::tools::{MAX_HOVER_CANDIDATES, OtherHit, PointerEvent, Tool};
@@ -57,10 +58,14 @@ impl App {
         }
     }
 
-    /// Searches the route and compares the files of the open panel after a change.
+    /// Searches the route, compares the files, or builds the network of the open panel after a
+    /// change.
     pub(super) fn update_tools(&mut self) {
         let repaint = &self.context.repaint;
         let files = &self.files;
+        if self.bottom.view != Some(BottomView::Network) {
+            self.bottom.network.forget();
+        }
         match self.bottom.view {
             Some(BottomView::Route) => {
                 let vehicle = self.swept_areas.vehicle().ok();
@@ -68,6 +73,7 @@ impl App {
                 self.bottom.route.update(file, document, vehicle, repaint);
             }
             Some(BottomView::Compare) => self.bottom.comparison.update(files, repaint),
+            Some(BottomView::Network) => self.bottom.network.update(files, repaint),
             Some(BottomView::Table) | None => {}
         }
     }
@@ -89,6 +95,13 @@ impl App {
         let (_, other) = comparison.other(&self.files).filter(|_| is_open)?;
         let changed = comparison.changed(&self.files)?.ok()?;
         Some((other.document()?, changed))
+    }
+
+    /// The network to show before it is made.
+    pub(super) fn shown_network(&self) -> Option<&Drafted> {
+        let is_open = self.bottom.view == Some(BottomView::Network);
+        let network = self.bottom.network.network(&self.files);
+        network.filter(|_| is_open)?.ok()
     }
 
     /// Indices of the other visible files, from the top.

@@ -11,6 +11,7 @@ impl App {
     fn preferences(&self) -> Preferences {
         Preferences {
             panel_width: self.panel_width,
+            side_panel: self.side.wanted,
             look: self.settings.clone(),
             window: self.window_place,
         }

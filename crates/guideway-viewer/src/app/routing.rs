@@ -60,6 +60,7 @@ impl App {
                 self.floor_plan.set(&text, services, repaint);
             }
             Action::PlaceFloorPlan(placement) => self.place_floor_plan(&placement),
+            Action::MakeNetwork => self.make_network(),
             Action::Activate(index) => self.files.activate(index),
             Action::MoveLayer { from, to } => self.files.move_layer(from, to),
             Action::Close(index) => self.request_close(index),
@@ -114,6 +115,7 @@ impl App {
             Command::Table => self.bottom.toggle(BottomView::Table),
             Command::Route => self.bottom.toggle(BottomView::Route),
             Command::Compare => self.bottom.toggle(BottomView::Compare),
+            Command::Network => self.bottom.toggle(BottomView::Network),
             Command::SidePanel => self.side.toggle(ctx.content_rect().width()),
             Command::Shortcuts => self.dialogs.shortcuts.is_open ^= true,
             Command::Cancel => self.cancel(ctx),
@@ -155,6 +157,7 @@ impl App {
             Command::ToolLine => self.tools.select(Tool::Line),
             Command::ToolArc => self.tools.select(Tool::Arc),
             Command::ToolCurve => self.tools.select(Tool::Curve),
+            Command::ToolBezier => self.tools.select(Tool::Bezier),
             Command::ToolNode => self.tools.select(Tool::Node),
             Command::ToolStation => self.tools.select(Tool::Station),
             Command::ToolMeasure => self.tools.select(Tool::Measure),

@@ -98,7 +98,10 @@ impl App {
             properties: PropertiesPanel::default(),
             new_edges: NewEdgesPanel::default(),
             copied: None,
-            side: SideTabs::default(),
+            side: SideTabs {
+                wanted: preferences.side_panel,
+                ..SideTabs::default()
+            },
             bottom: BottomPanel::default(),
             other_hit: None,
             dialogs: Dialogs::default(),

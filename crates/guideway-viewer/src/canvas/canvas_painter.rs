@@ -18,6 +18,7 @@ use super::paint_gesture::{
     HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_glowing, paint_handles,
     paint_outline, paint_rings,
 };
+use super::paint_network::paint_network;
 use super::paint_snap::paint_snap;
 use super::paint_tools::ToolPainter;
 use super::paint_typed::paint_typed;
@@ -27,6 +28,7 @@ use crate::compare::Changed;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::{Layer, OpenFiles};
+use crate::network_draft::Drafted;
 use crate::route::FoundRoute;
 use crate::tools::{Gesture, OtherHit, Tool, ToolContext, Tools};
 
@@ -50,6 +52,8 @@ pub(crate) struct CanvasPainter<'a> {
     pub(crate) route: Option<(&'a FoundRoute, f32)>,
     /// The other document of a comparison, and the changes from it.
     pub(crate) changes: Option<(&'a Document, &'a Changed)>,
+    /// The network that the active file would become.
+    pub(crate) network: Option<&'a Drafted>,
 }
 
 impl CanvasPainter<'_> {
@@ -218,8 +222,12 @@ impl CanvasPainter<'_> {
         }
     }
 
-    /// Paints the changes of a comparison, and the route.
+    /// Paints the changes of a comparison, the route, and the network that would be made.
     fn paint_tools(&self, painter: &Painter) {
+        if let Some(drafted) = self.network {
+            let ink = color32(self.settings.decoration_style(1.0).ink);
+            paint_network(painter, self.screen, &self.view, drafted, ink);
+        }
         let Some(document) = self.files.document() else {
             return;
         };
@@ -270,6 +278,7 @@ impl CanvasPainter<'_> {
                 let draft = Draft {
                     points_m: &points_m,
                     paths: paths.as_ref(),
+                    has_handles: self.tools.tool() == Tool::Bezier,
                 };
                 draft.paint(painter, self.screen, &self.view, self.settings);
             }

@@ -24,6 +24,8 @@ pub(super) struct Draft<'a> {
     pub(super) points_m: &'a [Point<f64>],
     /// The paths through them; `None` for a measured polyline, or if there are no such paths.
     pub(super) paths: Option<&'a Layout>,
+    /// True if some points are control points, which lines join with the ends.
+    pub(super) has_handles: bool,
 }
 
 impl Draft<'_> {
@@ -53,6 +55,9 @@ impl Draft<'_> {
         };
         match self.paths {
             Some(layout) => {
+                if self.has_handles {
+                    painter.line(corners, Stroke::new(1.0, HOVER_COLOR.gamma_multiply(0.5)));
+                }
                 let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
                 for path in layout.paths.iter() {
                     let outline = path_outline(path, view);

@@ -63,8 +63,9 @@ pub(crate) const MENUS: [Menu; 7] = [
         name: "Tool",
         groups: &[
             &[ToolSelect, ToolPoints, ToolMeasure],
-            &[ToolLine, ToolArc, ToolCurve, ToolNode, ToolStation],
-            &[Route, Compare],
+            &[ToolLine, ToolArc, ToolCurve, ToolBezier],
+            &[ToolNode, ToolStation],
+            &[Route, Compare, Network],
             &[FinishPath, Cancel],
         ],
     },

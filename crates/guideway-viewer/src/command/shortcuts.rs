@@ -83,6 +83,7 @@ pub(crate) const SHORTCUTS: &[(Command, KeyboardShortcut)] = &[
     on(Command::ToolLine, NONE, Key::D),
     on(Command::ToolArc, NONE, Key::O),
     on(Command::ToolCurve, NONE, Key::C),
+    on(Command::ToolBezier, SHIFT, Key::C),
     on(Command::ToolNode, NONE, Key::W),
     on(Command::ToolStation, NONE, Key::S),
     on(Command::ToolMeasure, NONE, Key::M),

@@ -4,22 +4,20 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use eframe::egui::Context;
-use guideway_document::{Document, ReplayProgress, Snapshot};
+use guideway_document::{Document, Snapshot};
 use guideway_layout::shown_path;
 use guideway_scene::SceneOptions;
 
+use super::draft_file::DraftFile;
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::layer_look::LayerLook;
-use super::loader::{Loaded, Loader, MakeLayout, Source};
-use super::save_state::{SaveState, changed_on_disk};
+use super::loader::{Loader, NewLayout, Source};
+use super::save_state::SaveState;
 use crate::background::RepaintHandle;
-use crate::editing::{
-    BackgroundTasks, DocumentSlot, EDIT_WAIT, EditReturn, EditTask, Journal, TaskEvent, UnsavedWork,
-};
-use crate::render_queue::{LayerPicture, PictureEvent};
-use crate::services::{Job, LoadStage};
+use crate::editing::{BackgroundTasks, DocumentSlot, EDIT_WAIT, EditReturn, EditTask, UnsavedWork};
+use crate::render_queue::LayerPicture;
+use crate::services::Job;
 
 /// One open file.
 pub(crate) struct Layer {
@@ -31,14 +29,23 @@ pub(crate) struct Layer {
     pub(crate) tasks: BackgroundTasks,
     pub(crate) save: SaveState,
     /// Why there is no layout or no picture.
-    error: Option<String>,
-    loader: Option<Loader>,
+    pub(super) error: Option<String>,
+    pub(super) loader: Option<Loader>,
     /// True if the render thread waits for the scene of a document that an edit has.
-    owes_scene: bool,
+    pub(super) owes_scene: bool,
     /// True if unsaved work is recorded beside the file.
-    keeps_journal: bool,
-    /// Makes the layout again until it has a file; `path` is the suggested name then.
-    made_by: Option<MakeLayout>,
+    pub(super) keeps_journal: bool,
+    /// The layout until it has a file; `path` is the suggested name then.
+    pub(super) new: Option<NewFile>,
+    /// The draft that the file has replaced; its journal moves away with the first save.
+    draft: Option<DraftFile>,
+}
+
+/// A layout that has no file yet.
+pub(super) struct NewFile {
+    pub(super) layout: NewLayout,
+    /// Its draft; `None` where no state is kept.
+    pub(super) draft: Option<DraftFile>,
 }
 
 impl Drop for Layer {
@@ -47,6 +54,10 @@ impl Drop for Layer {
         // stays until the user decides about it.
         if !std::thread::panicking() && !self.has_unsaved_work() {
             self.discard_journal();
+            let new = self.new.as_ref().and_then(|new| new.draft.as_ref());
+            if let Some(draft) = new.or(self.draft.as_ref()) {
+                draft.delete();
+            }
         }
     }
 }
@@ -54,9 +65,9 @@ impl Drop for Layer {
 impl Layer {
     /// Opens a file, or a layout that has none yet and would be saved as `path`: starts to read or
     /// make it, and starts its render thread.
-    pub(crate) fn open(
+    pub(super) fn open(
         path: PathBuf,
-        made_by: Option<MakeLayout>,
+        new: Option<NewFile>,
         method: &str,
         options: SceneOptions,
         context: &LayerContext,
@@ -73,7 +84,8 @@ impl Layer {
             loader: None,
             owes_scene: false,
             keeps_journal: context.services.keeps_journals(),
-            made_by,
+            new,
+            draft: None,
         };
         layer.load(None, options, context);
         layer
@@ -96,7 +108,7 @@ impl Layer {
 
     /// Returns `true` if the layout has no file yet.
     pub(crate) fn is_untitled(&self) -> bool {
-        self.made_by.is_some()
+        self.new.is_some()
     }
 
     /// Why there is no layout or no picture.
@@ -173,7 +185,7 @@ impl Layer {
 
     /// Reads the base of the unsaved work and replays the work on it.
     pub(crate) fn recover(&mut self, options: SceneOptions, context: &LayerContext) {
-        if let Some(work) = self.slot.journal().unsaved_work(&self.path) {
+        if let Some(work) = self.slot.journal().unsaved_work(self.journal_home()) {
             self.save.keep_changes();
             self.load(Some(work), options, context);
         }
@@ -187,21 +199,29 @@ impl Layer {
     ) {
         self.tasks.set_options(options.clone());
         let LayerContext { services, repaint } = context.clone();
-        let of_file = || Source::File(self.path.clone());
-        let source = self.made_by.map_or_else(of_file, Source::Made);
+        let source = match &self.new {
+            None => Source::File(self.path.clone()),
+            Some(NewFile { layout, draft }) => {
+                // A reload must not change the file that the journal belongs to.
+                let unwritten = draft.as_ref().filter(|draft| !draft.path().exists());
+                let draft = unwritten.map(|draft| draft.path().to_owned());
+                Source::New(layout.clone(), draft)
+            }
+        };
         let stamp = services.file_stamp(&self.path);
         self.save.begin_load(stamp.filter(|_| !self.is_untitled()));
         self.loader = Some(Loader::start(services, source, unsaved, options, repaint));
     }
 
-    fn end_load(&mut self) {
+    pub(super) fn end_load(&mut self) {
         self.loader = None;
         self.save.end_reload();
     }
 
     /// Begins a save: see [`SaveState::begin`].
     pub(crate) fn begin_save(&mut self) -> Option<(Snapshot, Vec<String>)> {
-        self.save.begin(&mut self.slot, &self.path)
+        let home = self.journal_home().to_owned();
+        self.save.begin(&mut self.slot, &home)
     }
 
     /// Ends a save; with a path, the layout was written there.
@@ -214,9 +234,19 @@ impl Layer {
             self.path.clone_from(path);
         }
         let state = context.services.file_stamp(&self.path);
-        let is_new = saved_as.is_some() && self.made_by.take().is_some();
-        let complete = self.save.end(saved_as, state, is_new && self.keeps_journal);
+        let is_first = saved_as.is_some() && self.is_untitled();
+        if is_first {
+            self.draft = self.new.take().and_then(|new| new.draft);
+        }
+        let opens_journal = is_first && self.draft.is_none() && self.keeps_journal;
+        let complete = self.save.end(saved_as, state, opens_journal);
         self.run(complete, EDIT_WAIT, &context.repaint)
+    }
+
+    /// The file beside which the journal lies: the draft of a layout without a file.
+    pub(super) fn journal_home(&self) -> &Path {
+        let draft = self.new.as_ref().and_then(|new| new.draft.as_ref());
+        draft.map_or(&self.path, DraftFile::path)
     }
 
     /// Deletes the journal: its work is saved or unwanted.
@@ -231,11 +261,12 @@ impl Layer {
         wait: Duration,
         repaint: &RepaintHandle,
     ) -> Option<LayerEvent> {
-        let returned = self.slot.run(task, wait, &self.path, repaint);
+        let home = self.journal_home().to_owned();
+        let returned = self.slot.run(task, wait, &home, repaint);
         self.take_return(returned, repaint)
     }
 
-    fn take_return(
+    pub(super) fn take_return(
         &mut self,
         returned: Option<EditReturn>,
         repaint: &RepaintHandle,
@@ -250,147 +281,17 @@ impl Layer {
         if std::mem::take(&mut self.owes_scene) {
             self.send_scene();
         }
-        self.slot.start_queued(&self.path, repaint);
+        let home = self.journal_home().to_owned();
+        self.slot.start_queued(&home, repaint);
         notice.map(LayerEvent::Notice)
     }
 
     /// Sends the document's scene to the render thread, once the document is in place.
-    fn send_scene(&mut self) {
+    pub(super) fn send_scene(&mut self) {
         match self.slot.document() {
             Some(document) => self.picture.set_scene(Arc::new(document.scene().clone())),
             None => self.owes_scene = true,
         }
-    }
-
-    /// Takes the results of all threads.
-    pub(crate) fn poll(&mut self, ctx: &Context, context: &LayerContext) -> Vec<LayerEvent> {
-        let repaint = &context.repaint;
-        let mut events = Vec::new();
-        self.slot.poll_overlay();
-        let returned = self.slot.poll(Duration::ZERO);
-        events.extend(self.take_return(returned, repaint));
-        let recorded = self.slot.record(&self.path);
-        events.extend(recorded.err().map(LayerEvent::Notice));
-        for event in self.tasks.poll(&mut self.slot, &self.path, repaint) {
-            match event {
-                TaskEvent::Edit(task) => events.extend(self.run(task, EDIT_WAIT, repaint)),
-                TaskEvent::Recolored => self.send_scene(),
-                TaskEvent::Notice(notice) => events.push(LayerEvent::Notice(notice)),
-            }
-        }
-        self.poll_loader(&mut events);
-        self.poll_picture(ctx, context, &mut events);
-        events
-    }
-
-    fn poll_loader(&mut self, events: &mut Vec<LayerEvent>) {
-        if self.has_picture_or_error()
-            && let Some(loader) = &mut self.loader
-        {
-            loader.continue_after_first_picture();
-        }
-        if !self.slot.is_editing() {
-            let pieces: Vec<Loaded> = self.loader.iter().flat_map(Loader::pieces).collect();
-            for piece in pieces {
-                self.take_loaded(piece, events);
-            }
-        }
-    }
-
-    fn poll_picture(
-        &mut self,
-        ctx: &Context,
-        context: &LayerContext,
-        events: &mut Vec<LayerEvent>,
-    ) {
-        let name = self.name();
-        let LayerContext { services, repaint } = context;
-        for event in self.picture.poll(ctx, &name, services, repaint) {
-            match event {
-                PictureEvent::Shown { is_first } => {
-                    self.error = None;
-                    events.extend(is_first.then_some(LayerEvent::Reached(LoadStage::Shown)));
-                }
-                PictureEvent::NeedsScene => self.send_scene(),
-                PictureEvent::FellBack(why) => events.push(LayerEvent::FellBack(why)),
-                PictureEvent::Failed(why) => self.error = Some(why),
-            }
-        }
-    }
-
-    fn take_loaded(&mut self, piece: Loaded, events: &mut Vec<LayerEvent>) {
-        match piece {
-            Loaded::Scene(scene) => {
-                self.error = None;
-                // After a reload the old document stays in place until the new one is ready.
-                if self.document().is_none() {
-                    events.push(LayerEvent::Reached(LoadStage::Read));
-                    events.push(LayerEvent::Appeared(scene.bounds()));
-                    self.picture.set_scene(scene);
-                }
-            }
-            Loaded::Document(document, done) => self.take_document(*document, done, events),
-            Loaded::Findings(findings) => {
-                self.tasks.set_findings(findings);
-                events.push(LayerEvent::Reached(LoadStage::Checked));
-                self.loader = None;
-            }
-            Loaded::Failed(error) => {
-                self.end_load();
-                if self.document().is_none() {
-                    self.error = Some(error.to_string());
-                } else {
-                    events.push(LayerEvent::Notice(error.to_string()));
-                }
-            }
-        }
-    }
-
-    /// Puts a loaded document in place, unless the present one has changes to keep.
-    fn take_document(
-        &mut self,
-        mut document: Document,
-        done: Option<ReplayProgress>,
-        events: &mut Vec<LayerEvent>,
-    ) {
-        self.save.end_reload();
-        if self.is_changed() && !self.save.drops_changes() {
-            self.loader = None;
-            events.push(LayerEvent::Notice(changed_on_disk(&self.name())));
-            return;
-        }
-        self.save.complete_load();
-        let notice = match done {
-            Some(done) => self.slot.journal_mut().resume(done, &self.path),
-            None => {
-                if !self.has_unsaved_work() {
-                    // The journal of the replaced document.
-                    self.discard_journal();
-                }
-                self.open_journal()
-            }
-        };
-        events.extend(notice.map(LayerEvent::Notice));
-        // Edits replayed so far are in the scene that the render thread gets.
-        let queue = self.picture.queue();
-        document.on_edit(move |edit| queue.edit(edit.clone()));
-        let is_reload = self.slot.replace(document);
-        self.tasks.reset_findings();
-        if is_reload || std::mem::take(&mut self.owes_scene) {
-            self.send_scene();
-        }
-        events.push(LayerEvent::Reached(LoadStage::Editable));
-    }
-
-    /// Opens the journal of the file, if this run keeps journals. Returns a notice about it.
-    fn open_journal(&mut self) -> Option<String> {
-        let journal = self.slot.journal_mut();
-        // The present one has a lock that would keep the next one out.
-        *journal = Journal::default();
-        if self.keeps_journal && self.made_by.is_none() {
-            *journal = Journal::open(&self.path);
-        }
-        journal.take_notice()
     }
 
     /// Returns `true` if this is the file at `path`.

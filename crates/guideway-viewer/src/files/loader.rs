@@ -11,6 +11,7 @@ use guideway_document::{Document, ReplayProgress};
 use guideway_layout::{CheckOptions, Layout, UserError};
 use guideway_scene::{Scene, SceneOptions};
 
+use super::draft_file::write_draft;
 use crate::background::RepaintHandle;
 use crate::editing::{Findings, UnsavedWork};
 use crate::services::{AppServices, Job, WINDOW_ERROR};
@@ -19,15 +20,32 @@ use crate::services::{AppServices, Job, WINDOW_ERROR};
 /// then the render method gets all cores.
 const FIRST_PICTURE_WAIT: Duration = Duration::from_secs(1);
 
-/// Makes a layout that is in no file yet.
-pub(crate) type MakeLayout = fn(&dyn AppServices) -> Result<Layout, UserError>;
+/// A layout that is in no file yet.
+#[derive(Clone, Debug)]
+pub(crate) enum NewLayout {
+    /// The thread that loads it makes it.
+    By(fn(&dyn AppServices) -> Result<Layout, UserError>),
+    Ready(Arc<Layout>),
+    /// Left by an earlier run as this draft.
+    Draft(PathBuf),
+}
+
+impl NewLayout {
+    fn layout(&self, services: &dyn AppServices, job: &Job) -> Result<Arc<Layout>, UserError> {
+        match self {
+            Self::Draft(path) => services.read_layout(path, job).map(Arc::new),
+            Self::By(make) => make(services).map(Arc::new),
+            Self::Ready(layout) => Ok(Arc::clone(layout)),
+        }
+    }
+}
 
 /// The origin of a layout.
 #[derive(Clone, Debug)]
 pub(crate) enum Source {
     File(PathBuf),
-    /// No file yet.
-    Made(MakeLayout),
+    /// No file yet, and the draft to write.
+    New(NewLayout, Option<PathBuf>),
 }
 
 /// The thread that reads a file.
@@ -145,10 +163,16 @@ fn read(
     options: &SceneOptions,
     job: &Job,
 ) -> Result<Scene, UserError> {
-    let layout = Arc::new(match source {
-        Source::File(path) => services.read_layout(path, job)?,
-        Source::Made(make) => make(services)?,
-    });
+    let layout = match source {
+        Source::File(path) => Arc::new(services.read_layout(path, job)?),
+        Source::New(new, draft) => {
+            let layout = new.layout(services, job)?;
+            if let Some(draft) = draft {
+                write_draft(services, &layout, draft);
+            }
+            layout
+        }
+    };
     // The color column may exist in another open file only.
     let scene = Scene::new(Arc::clone(&layout), options);
     Ok(scene.or_else(|_| Scene::new(layout, &without_column(options)))?)

@@ -3,17 +3,20 @@
 //! | part | owns | file |
 //! |---|---|---|
 //! | [`OpenFiles`] | the open files, the active one, watcher, recent files | `open_files` |
-//! | [`Layer`] | one open file: loader, document slot, picture, background tasks | `layer` |
+//! | [`Layer`] | one open file: loader, document slot, picture, tasks | `layer`, `layer_poll` |
 //! | [`Loader`](loader::Loader) | the thread that reads a file | `loader` |
+//! | [`DraftFile`](draft_file::DraftFile) | the first state of a layout without a file | `draft_file` |
 //! | [`FileWriter`] | the file being written | `file_writer` |
 //! | [`Watcher`](watcher::Watcher) | the thread that detects changes on disk | `watcher` |
 //! | [`RecentFiles`](recent_files::RecentFiles) | files of earlier runs | `recent_files` |
 
+mod draft_file;
 mod file_writer;
 mod layer;
 mod layer_context;
 mod layer_event;
 mod layer_look;
+mod layer_poll;
 mod loader;
 mod open_files;
 mod recent_files;
@@ -25,5 +28,5 @@ pub(crate) use layer::Layer;
 pub(crate) use layer_context::LayerContext;
 pub(crate) use layer_event::LayerEvent;
 pub(crate) use layer_look::LayerLook;
-pub(crate) use loader::MakeLayout;
+pub(crate) use loader::NewLayout;
 pub(crate) use open_files::OpenFiles;

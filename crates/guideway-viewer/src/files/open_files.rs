@@ -7,10 +7,11 @@ use guideway_document::Document;
 use guideway_scene::SceneOptions;
 use guideway_spline::Bounds;
 
-use super::layer::Layer;
+use super::draft_file::DraftFile;
+use super::layer::{Layer, NewFile};
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
-use super::loader::MakeLayout;
+use super::loader::NewLayout;
 use super::recent_files::RecentFiles;
 use super::save_state::changed_on_disk;
 use super::watcher::Watcher;
@@ -138,7 +139,7 @@ impl OpenFiles {
     pub(crate) fn open_untitled(
         &mut self,
         (stem, extension): (&str, &str),
-        make: MakeLayout,
+        new: NewLayout,
         method: &str,
         options: SceneOptions,
     ) {
@@ -149,8 +150,30 @@ impl OpenFiles {
         let is_free =
             |path: &PathBuf| self.index_of(path).is_none() && services.file_stamp(path).is_none();
         let path = names.find(is_free);
-        let (path, made_by) = (path.unwrap_or_default(), Some(make));
-        self.push(Layer::open(path, made_by, method, options, &self.context));
+        let path = path.unwrap_or_default();
+        let state = services
+            .state_folder()
+            .filter(|_| services.keeps_journals());
+        let draft = state.and_then(|state| DraftFile::create(&state, &path));
+        let new = NewFile { layout: new, draft };
+        self.push(Layer::open(path, Some(new), method, options, &self.context));
+    }
+
+    /// Opens the layouts without a file that earlier runs left with unsaved work.
+    pub(crate) fn open_left_drafts(&mut self, method: &str, options: &SceneOptions) {
+        let services = &self.context.services;
+        let state = services
+            .state_folder()
+            .filter(|_| services.keeps_journals());
+        for draft in state.iter().flat_map(|state| DraftFile::left(state)) {
+            let new = NewFile {
+                layout: NewLayout::Draft(draft.path().to_owned()),
+                draft: Some(draft),
+            };
+            let path = new.draft.as_ref().map(DraftFile::suggested_name);
+            let (path, options) = (path.unwrap_or_default(), options.clone());
+            self.push(Layer::open(path, Some(new), method, options, &self.context));
+        }
     }
 
     fn push(&mut self, layer: Layer) {

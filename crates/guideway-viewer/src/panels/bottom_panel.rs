@@ -1,13 +1,14 @@
-//! The bottom panel: table, route and comparison, one at a time.
+//! The bottom panel: table, route, comparison and network, one at a time.
 
 use eframe::egui::{Align, Layout, Rect, TextWrapMode, Ui, UiBuilder};
 
 use super::table::TablePanel;
-use super::{compare_panel, route_panel};
+use super::{compare_panel, network_panel, route_panel};
 use crate::action::Action;
 use crate::background::RepaintHandle;
 use crate::compare::Comparison;
 use crate::files::OpenFiles;
+use crate::network_draft::NetworkDraft;
 use crate::route::RouteSearch;
 
 /// A view of the bottom panel.
@@ -16,16 +17,18 @@ pub(crate) enum BottomView {
     Table,
     Route,
     Compare,
+    Network,
 }
 
 impl BottomView {
-    const ALL: [Self; 3] = [Self::Table, Self::Route, Self::Compare];
+    const ALL: [Self; 4] = [Self::Table, Self::Route, Self::Compare, Self::Network];
 
     fn name(self) -> &'static str {
         match self {
             Self::Table => "Table",
             Self::Route => "Route",
             Self::Compare => "Compare",
+            Self::Network => "Network",
         }
     }
 }
@@ -38,6 +41,7 @@ pub(crate) struct BottomPanel {
     pub(crate) table: TablePanel,
     pub(crate) route: RouteSearch,
     pub(crate) comparison: Comparison,
+    pub(crate) network: NetworkDraft,
 }
 
 impl BottomPanel {
@@ -104,6 +108,7 @@ impl BottomPanel {
             Some(BottomView::Compare) => {
                 compare_panel::show(ui, files, &mut self.comparison, actions);
             }
+            Some(BottomView::Network) => network_panel::show(ui, files, &mut self.network, actions),
             None => {}
         }
     }

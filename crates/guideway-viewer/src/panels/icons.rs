@@ -129,6 +129,19 @@ const CURVE_TOOL: &[Line] = &[
         [14.5, 2.0],
     ],
 ];
+const BEZIER_TOOL: &[Line] = &[
+    &[[2.0, 14.0], [2.0, 2.0]],
+    &[[14.0, 14.0], [14.0, 2.0]],
+    &[
+        [2.0, 14.0],
+        [2.6, 9.5],
+        [4.4, 6.2],
+        [8.0, 5.0],
+        [11.6, 6.2],
+        [13.4, 9.5],
+        [14.0, 14.0],
+    ],
+];
 const NODE_TOOL: &[Line] = &[
     &[[8.0, 4.0], [12.0, 8.0], [8.0, 12.0], [4.0, 8.0], [8.0, 4.0]],
     &[[0.5, 8.0], [4.0, 8.0]],
@@ -193,6 +206,7 @@ pub(super) fn lines(command: Command) -> Option<&'static [Line]> {
         Command::ToolLine => LINE_TOOL,
         Command::ToolArc => ARC_TOOL,
         Command::ToolCurve => CURVE_TOOL,
+        Command::ToolBezier => BEZIER_TOOL,
         Command::ToolNode => NODE_TOOL,
         Command::ToolStation => STATION_TOOL,
         Command::ToolMeasure => MEASURE,

@@ -1,7 +1,9 @@
 //! The Layers tab: open files with their levels and kinds of elements, and the floor plan.
 
 use eframe::egui::collapsing_header::CollapsingState;
-use eframe::egui::{Align, Button, Color32, Id, Label, Layout, RichText, Slider, Ui};
+use eframe::egui::{
+    Align, Button, Color32, Id, Label, Layout, RichText, Role, Slider, Ui, WidgetInfo,
+};
 use guideway_document::{Document, text_format};
 use guideway_layout::{Level, shown_path};
 use guideway_scene::{Rgba, Table};
@@ -126,20 +128,40 @@ impl LayerRow {
         }
     }
 
-    /// Shows the levels, the shown one marked.
+    /// Shows the levels, each with a switch; the one that is drawn on is marked.
     fn show_levels(&self, ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
-        let all = [(None, "All levels".to_owned())].into_iter();
-        let each = levels(document)
-            .into_iter()
-            .map(|(level, name)| (Some(level), name));
-        for (level, name) in all.chain(each) {
-            let is_shown = document.level() == level;
-            let button = Button::selectable(is_shown, name).truncate();
-            if ui.add(button).clicked() && !is_shown {
-                let show = EditTask::view_change(move |document| document.show_level(level));
-                actions.push(Action::Activate(self.index));
-                actions.push(Action::Edit(show));
-            }
+        let mut change = |edit: EditTask| {
+            actions.push(Action::Activate(self.index));
+            actions.push(Action::Edit(edit));
+        };
+        let levels = levels(document);
+        let shows_all = levels.iter().all(|(l, _)| document.shows_level(Some(*l)));
+        let all = Button::selectable(shows_all, "All levels").truncate();
+        if ui.add(all).clicked() && !shows_all {
+            change(EditTask::view_change(|d: &mut Document| d.show_level(None)));
+        }
+        for (level, name) in levels {
+            ui.horizontal(|ui| {
+                let mut is_shown = document.shows_level(Some(level));
+                let hint = format!("Shows {name} beside other levels");
+                let switch = ui.checkbox(&mut is_shown, "").on_hover_text(&hint);
+                switch.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_shown, &hint));
+                if switch.changed() {
+                    change(EditTask::view_change(move |document: &mut Document| {
+                        document.set_level_shown(level, is_shown);
+                    }));
+                }
+                let is_drawn_on = document.level() == Some(level);
+                let button = Button::selectable(is_drawn_on, name).truncate();
+                let button = ui
+                    .add(button)
+                    .on_hover_text("Shows it alone, and draws on it");
+                if button.clicked() {
+                    change(EditTask::view_change(move |document: &mut Document| {
+                        document.show_level(Some(level));
+                    }));
+                }
+            });
         }
     }
 }

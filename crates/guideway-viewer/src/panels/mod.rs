@@ -14,6 +14,7 @@ mod findings_panel;
 mod icons;
 mod layers_panel;
 mod menu_bar;
+mod network_panel;
 mod new_edges;
 mod properties;
 mod render_panel;

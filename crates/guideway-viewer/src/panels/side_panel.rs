@@ -51,7 +51,7 @@ impl SideTab {
 pub(crate) struct SideTabs {
     pub(crate) tab: SideTab,
     /// `None` until the user decides: then the width of the window does.
-    wanted: Option<bool>,
+    pub(crate) wanted: Option<bool>,
 }
 
 impl SideTabs {

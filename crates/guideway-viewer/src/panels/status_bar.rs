@@ -136,6 +136,7 @@ fn tool_hint(tool: Tool) -> &'static str {
         Tool::Points => "Drag nodes and control points; Insert adds one, Backspace removes it",
         Tool::Line => "Click or type points; Enter, a double or a right click finishes",
         Tool::Arc => "Click start, end and a point between, or type a radius: r2",
+        Tool::Bezier => "Click the end, two control points, the next end; Enter finishes",
         Tool::Curve => "Click or type points; Enter, a double or a right click finishes",
         Tool::Node => "Click to create a node, on a path to split it",
         Tool::Station => "Click a node to put a station there, or a free place",

@@ -17,6 +17,7 @@ const GROUPS: &[&[Command]] = &[
         Command::ToolLine,
         Command::ToolArc,
         Command::ToolCurve,
+        Command::ToolBezier,
         Command::ToolNode,
         Command::ToolStation,
         Command::ToolMeasure,

@@ -14,6 +14,8 @@ const PANEL_WIDTHS: [f32; 2] = [180.0, 2000.0];
 pub(crate) struct Preferences {
     /// Width of the side panel, in points.
     pub(crate) panel_width: f32,
+    /// True if the side panel is shown; `None` lets the width of the window decide.
+    pub(crate) side_panel: Option<bool>,
     pub(crate) look: DisplaySettings,
     pub(crate) window: WindowPlace,
 }
@@ -22,6 +24,7 @@ impl Default for Preferences {
     fn default() -> Self {
         Self {
             panel_width: 320.0,
+            side_panel: None,
             look: DisplaySettings::default(),
             window: WindowPlace::default(),
         }

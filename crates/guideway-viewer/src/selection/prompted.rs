@@ -103,7 +103,7 @@ pub(crate) fn prompted_edit(command: Command, text: &str) -> Result<EditTask, St
             let moved = document.set_level(&selected, Some(level));
             moved.map_err(|error| error.to_string())?;
             // Elements that are on another level now are no longer shown.
-            document.show_level(document.level());
+            document.apply_levels();
             Ok::<(), String>(())
         }),
         Command::Rename => EditTask::edit(move |document: &mut Document| {

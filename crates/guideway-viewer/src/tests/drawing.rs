@@ -34,6 +34,21 @@ fn ends(document: &Document, row: usize) -> [Option<u32>; 2] {
 }
 
 #[test]
+fn bezier_curves_are_drawn_by_their_control_points() {
+    let mut window = new_layout();
+    window.key(Modifiers::SHIFT, Key::C);
+    for point in ["0,0", "4,0", "8,4", "8,8"] {
+        window.type_line(point);
+    }
+    window.key(NONE, Key::Enter);
+    let document = window.document();
+    assert_eq!(document.existing(Table::Nodes).count(), 2);
+    let path = document.layout().paths.get(0);
+    let middle = path.point_at_m(path.length_m() / 2.0).unwrap();
+    assert!(middle.distance(Point::new(5.5, 2.5)) < 1e-3, "{middle:?}");
+}
+
+#[test]
 fn typed_points_are_exact_and_a_right_click_finishes() {
     let mut window = new_layout();
     window.key(NONE, Key::D);

@@ -9,6 +9,7 @@ use guideway_spline::Point;
 
 use super::services::lanes;
 use super::test_window::TestWindow;
+use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
 
@@ -148,4 +149,31 @@ fn level_is_chosen_in_the_bar_and_elements_move_to_another() {
     );
     let node = document.node_near(Point::new(0.0, 2.0), 0.1);
     assert_eq!(node, None);
+}
+
+#[test]
+fn several_levels_are_shown_beside_each_other() {
+    let mut window = TestWindow::showing(two_levels());
+    window.app().side.open(SideTab::Layers);
+    window.harness.run_steps(3);
+    let shown = |window: &mut TestWindow| window.document().scene().draw_order().to_vec();
+    let switch = "Shows hall beside other levels";
+    window.harness.get_by_label(switch).click();
+    window.harness.run_steps(3);
+    assert_eq!(shown(&mut window), [1]);
+    let level = window.document().level();
+    assert_eq!(level, Some(1), "paths are drawn on a level that is shown");
+    window.harness.get_by_label(switch).click();
+    window.harness.run_steps(3);
+    assert_eq!(shown(&mut window).len(), 2);
+    assert_eq!(window.document().level(), Some(1), "paths go there still");
+    window.harness.get_by_label("hall").click();
+    window.harness.run_steps(3);
+    assert_eq!(shown(&mut window), [0]);
+    window.harness.get_by_label("All levels").click();
+    window.harness.run_steps(3);
+    assert_eq!(
+        (shown(&mut window).len(), window.document().level()),
+        (2, None)
+    );
 }

@@ -14,6 +14,7 @@ mod floor_plans;
 mod layers;
 mod levels;
 mod methods;
+mod network;
 mod panels;
 mod projects;
 mod properties;

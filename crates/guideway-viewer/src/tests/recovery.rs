@@ -1,6 +1,7 @@
 //! Unsaved work of a crashed run: recovery in the background, and nothing that loses the work.
 
 use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui::{Key, Modifiers};
@@ -174,4 +175,61 @@ fn discarded_work_is_deleted() {
     window.harness.run_steps(3);
     assert!(!window.app().files.layers()[0].has_unsaved_work() && !window.document().is_changed());
     assert_eq!(fs::read_dir(crashed.folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn new_layout_survives_a_crash() {
+    let folder = tempfile::tempdir().unwrap();
+    let states = ["first", "second"].map(|name| folder.path().join(name));
+    let disk = TestServices::with([]);
+    *disk.state.lock().unwrap() = Some(states[0].clone());
+    let mut window = TestWindow::open(&disk, &[], Some("cpu"));
+    window.key(Modifiers::COMMAND, Key::N);
+    window.wait(|app| app.document().is_some());
+    window.key(Modifiers::NONE, Key::D);
+    for point in ["0,0", "10,0", "10,5"] {
+        window.type_line(point);
+    }
+    window.key(Modifiers::NONE, Key::Enter);
+    window.harness.run_steps(3);
+    assert!(window.app().dialogs.notices.texts().is_empty());
+    // What the crash leaves: the window cannot delete it any more.
+    fs::rename(&states[0], &states[1]).unwrap();
+    drop(window);
+    *disk.state.lock().unwrap() = Some(states[1].clone());
+    let moved = |path: &PathBuf| {
+        let inside = path
+            .strip_prefix(&states[0])
+            .map(|inside| states[1].join(inside));
+        inside.unwrap_or_else(|_| path.clone())
+    };
+    let mut files = disk.files.lock().unwrap();
+    *files = files
+        .iter()
+        .map(|(path, layout)| (moved(path), layout.clone()))
+        .collect();
+    drop(files);
+
+    let mut window = TestWindow::open(&disk, &[], Some("cpu"));
+    window.wait(|app| {
+        app.files
+            .layers()
+            .iter()
+            .any(|layer| layer.has_unsaved_work())
+    });
+    recover(&mut window);
+    window.wait(|app| has_notice(app, "Recovered 1 step"));
+    assert_eq!(window.app().files.layers()[0].name(), "untitled.lif.json");
+    assert_eq!(window.document().layout().paths.len(), 2);
+    assert!(window.document().is_changed());
+    // Saved under a name, nothing is left of the draft.
+    window.key(Modifiers::COMMAND, Key::S);
+    let site = folder.path().join("site.lif.json");
+    window.app().dialogs.prompt.open_mut().unwrap().text = site.to_string_lossy().into();
+    window.key(Modifiers::NONE, Key::Enter);
+    window.wait(|app| has_notice(app, "Saved "));
+    assert!(!window.document().is_changed());
+    drop(window);
+    let left = fs::read_dir(states[1].join("drafts")).unwrap().count();
+    assert_eq!(left, 0);
 }

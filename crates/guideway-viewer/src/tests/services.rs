@@ -239,6 +239,11 @@ impl AppServices for TestServices {
         let mut files = locked(&self.files);
         files.insert(path.to_owned(), layout.clone());
         drop(files);
+        if path.is_absolute() {
+            // The journal identifies the file by its state on disk.
+            let written = std::fs::write(path, "");
+            written.map_err(|error| Self::error(&error.to_string()))?;
+        }
         self.note_write(path);
         Ok(Saved::Written(losses))
     }

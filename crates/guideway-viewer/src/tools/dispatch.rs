@@ -52,7 +52,9 @@ impl Tools {
 
     fn double_click(&mut self, context: &ToolContext<'_>) -> Option<ToolEffect> {
         match self.tool {
-            Tool::Line | Tool::Arc | Tool::Curve => return self.finish_path(context),
+            Tool::Line | Tool::Arc | Tool::Curve | Tool::Bezier => {
+                return self.finish_path(context);
+            }
             Tool::Measure => self.gesture = Gesture::None,
             Tool::Select if self.hovered(context.document).is_some() => self.select(Tool::Points),
             Tool::Select | Tool::Points | Tool::Node | Tool::Station => {}

@@ -16,6 +16,8 @@ pub(crate) enum Tool {
     Arc,
     /// Draws a curve through the clicked points.
     Curve,
+    /// Draws Bezier curves: ends and the two control points between them, one per click.
+    Bezier,
     /// Creates a node per click, and splits paths there.
     Node,
     /// Creates a station per click.
@@ -36,6 +38,7 @@ impl Tool {
             Self::Line => Some(DrawnCurve::Lines),
             Self::Arc => Some(DrawnCurve::Arc),
             Self::Curve => Some(DrawnCurve::Smooth),
+            Self::Bezier => Some(DrawnCurve::Bezier),
             _ => None,
         }
     }

@@ -5,9 +5,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use guideway::layout::{CheckOptions, FindingKind, UserError, check, shown_path};
-use guideway::network::{
-    AnalyzeOptions, BuildOptions, BuildReport, LayerRule, NoteSource, analyze, build,
-};
+use guideway::network::{AnalyzeOptions, BuildOptions, LayerRule, NoteSource, analyze, build};
 use serde_json::{Value, json};
 
 use super::convert::{target_to_save, write};
@@ -15,9 +13,6 @@ use super::exit::Exit;
 use super::input::{self, Input};
 use super::output::{Output, save};
 use super::{text, values};
-
-/// Notes that the text report lists.
-const SHOWN_NOTES: usize = 5;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = input::PLACEMENT_HELP)]
@@ -175,8 +170,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         },
     });
     out.report("network", &body, || {
-        let mut words = account(&made.report, &options);
-        words += "check: ";
+        let mut words = made.report.lines(&options).join("\n");
+        words += "\ncheck: ";
         words += &match kinds.is_empty() {
             true => "no findings\n".to_owned(),
             false => {
@@ -198,102 +193,4 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         words + &format!("{name}: {size}, took {}\n", text::time(total_ms))
     })?;
     Ok(Exit::Clean)
-}
-
-/// The report in words.
-fn account(report: &BuildReport, options: &BuildOptions) -> String {
-    let counted = text::counted;
-    let mut lines = vec![format!(
-        "{} between {}, {}",
-        counted(report.edges, "edge"),
-        counted(report.nodes, "node"),
-        counted(report.stations, "station"),
-    )];
-    let one_way = report.edges - report.two_way;
-    lines.push(match (options.two_way, one_way) {
-        (true, 0) => "two-way: vehicles drive along every line in both directions".to_owned(),
-        (true, _) => format!(
-            "two-way, except {} by the rules of layers",
-            counted(one_way, "edge")
-        ),
-        (false, _) => "one-way: vehicles drive as the lines were drawn".to_owned(),
-    });
-    let mut say = |count: u64, line: String| {
-        if count > 0 {
-            lines.push(line);
-        }
-    };
-    say(
-        report.gaps,
-        format!(
-            "joined: {}; the farthest end moved by {}",
-            counted(report.gaps, "gap"),
-            text::meters(report.largest_move_m)
-        ),
-    );
-    say(
-        report.junctions + report.crossings,
-        format!(
-            "cut: {} at {} and {}",
-            counted(report.cut, "line"),
-            counted(report.junctions, "junction"),
-            counted(report.crossings, "crossing")
-        ),
-    );
-    say(
-        report.smoothed_lines,
-        format!(
-            "smoothed: {} to {}",
-            counted(report.smoothed_lines, "line"),
-            counted(report.smoothed_curves, "curve")
-        ),
-    );
-    say(
-        report.named,
-        format!("named: {}", counted(report.named, "node")),
-    );
-    for (count, what) in [
-        (report.paths_left, "of layers that are left out"),
-        (report.circles, "that are circles of stations"),
-        (report.dots, "without length"),
-        (report.vanished, "shorter than the weld distance"),
-        (report.repeated, "drawn twice"),
-    ] {
-        say(count, format!("left: {} {what}", counted(count, "line")));
-    }
-    say(
-        report.broken,
-        format!("parted: {} with gaps", counted(report.broken, "line")),
-    );
-    say(
-        report.overlaps,
-        format!(
-            "not cut: {} of curves that lie on each other",
-            counted(report.overlaps, "pair")
-        ),
-    );
-    say(report.nodes_left, {
-        let values = report.values_left.iter();
-        let values = values.map(|(name, &count)| {
-            let name = text::single_line(name, 40);
-            format!("{} of {name}", counted(count, "value"))
-        });
-        let values: Vec<String> = values.collect();
-        let values = match values.is_empty() {
-            true => String::new(),
-            false => format!(", and with them {}", values.join(", ")),
-        };
-        let nodes = counted(report.nodes_left, "node");
-        format!("left: {nodes} of the drawing, welded to others or at no line{values}")
-    });
-    say(report.left_note_count, {
-        let names = report.left_notes.iter().take(SHOWN_NOTES);
-        let names: Vec<String> = names.map(|n| text::single_line(&n.name, 40)).collect();
-        format!(
-            "left: {} too far from every line, such as {}; --reach takes farther ones",
-            counted(report.left_note_count, "note"),
-            names.join(", ")
-        )
-    });
-    lines.iter().map(|line| format!("{line}\n")).collect()
 }

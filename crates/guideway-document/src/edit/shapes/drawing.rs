@@ -4,6 +4,7 @@
 //!   lines:  P --- P --- P      a node at each point, a path between two
 //!   arc:    P  .-' p '-.  P    a node at the first two points; the third one lies on the arc
 //!   curve:  P ~ p ~ p ~ P      a node at the first and at the last point
+//!   bezier: P  c   c  P        a node at every third point; those between are control points
 //! ```
 
 use std::sync::Arc;
@@ -37,6 +38,9 @@ pub enum DrawnCurve {
     /// An arc from the first to the second point with a radius in meters: to the left, or to the
     /// right if it is negative.
     ArcOfRadius(f64),
+    /// Cubic Bezier curves: the first point and every third one after it are ends, the two between
+    /// are control points. A single one between the last ends is that of a quadratic curve.
+    Bezier,
     /// A curve without kinks through all points. It continues a path at the first point, and a
     /// path at the last point continues it, where one leads there.
     Smooth,
@@ -62,6 +66,7 @@ impl Drawing {
             DrawnCurve::Arc | DrawnCurve::ArcOfRadius(_) => {
                 points.iter().take(2).copied().collect()
             }
+            DrawnCurve::Bezier => bezier_ends(points.len()).map(|at| points[at]).collect(),
             DrawnCurve::Smooth => points
                 .first()
                 .into_iter()
@@ -217,6 +222,20 @@ impl Document {
                 arc.map_err(refused)?.push(ARC_TOLERANCE_M, &mut runs);
                 (vec![runs], ends.to_vec())
             }
+            DrawnCurve::Bezier => {
+                let ends: Vec<usize> = bezier_ends(points.len()).collect();
+                let curve = |[from, to]: &[usize; 2]| {
+                    let mut runs = Runs::default();
+                    match points[*from..=*to] {
+                        [a, b, c, d] => runs.push_bezier(&[a, b, c, d]),
+                        [a, b, c] => runs.push_quadratic(&[a, b, c]),
+                        _ => runs.push_line(points[*from], points[*to]),
+                    }
+                    runs
+                };
+                let curves = ends.array_windows().map(curve).collect();
+                (curves, ends.iter().map(|&at| places[at]).collect())
+            }
             DrawnCurve::Smooth => {
                 let tangents = [
                     self.tangent(first, points[1] - points[0], true)?,
@@ -288,6 +307,12 @@ impl Document {
         }
         Ok(best.map(|(_, direction)| direction))
     }
+}
+
+/// Numbers of the points at which Bezier curves begin and end: every third one, and the last one.
+fn bezier_ends(points: usize) -> impl Iterator<Item = usize> {
+    let last = points.saturating_sub(1);
+    (0..points).filter(move |at| at.is_multiple_of(3) || *at == last)
 }
 
 fn refused(reason: ConstructError) -> ShapeError {

@@ -230,3 +230,26 @@ fn middle_of(layout: &Layout) -> Option<Point<f64>> {
     let path = layout.paths.get(0);
     path.point_at_m(path.length_m() / 2.0)
 }
+
+#[test]
+fn bezier_curves_have_their_control_points_between_nodes() {
+    let mut document = empty();
+    let points = [
+        p(0.0, 0.0),
+        p(4.0, 0.0),
+        p(8.0, 4.0),
+        p(8.0, 8.0),
+        p(8.0, 14.0),
+        p(2.0, 14.0),
+    ];
+    let curves = drawing(&points, DrawnCurve::Bezier);
+    assert_eq!(curves.ends_m(), [points[0], points[3], points[5]]);
+    let new = document.draw(&curves).unwrap();
+    assert_eq!((new.paths.len(), new.nodes.len()), (2, 3));
+    let [start, end] = tangents(&document, 0);
+    assert!(is_near(start, p(1.0, 0.0)) && is_near(end, p(0.0, 1.0)));
+    // The last one is quadratic: both of its tangents meet at its only control point.
+    let [start, end] = tangents(&document, 1);
+    assert!(is_near(start, p(0.0, 1.0)) && is_near(end, p(-1.0, 0.0)));
+    assert_eq!(ends(&document, 1), [Some(1), Some(2)]);
+}

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use guideway_layout::is_hidden;
+use crate::is_hidden;
 
 /// A count with thousands separators: `1,020,350`.
 pub fn count(n: u64) -> String {

@@ -1,0 +1,196 @@
+//! The network that a drawing would become: options, and the result of the background task.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use guideway_layout::{Layout, UserError};
+use guideway_network::{
+    BuildOptions, BuildReport, DrawingSources, LayerRule, Network, NoteSource, build,
+};
+
+use crate::background::{BackgroundTask, RepaintHandle};
+use crate::files::OpenFiles;
+
+/// Ends within this distance become one node, in meters, until the user chooses another one.
+const WELD_M: f64 = 0.05;
+
+/// The subject of a result: the file, the state of its document, and the options.
+#[derive(Clone, Debug, PartialEq)]
+struct DraftKey {
+    file: PathBuf,
+    state: u64,
+    options: BuildOptions,
+}
+
+impl DraftKey {
+    fn is_of_drawing(&self, other: &Self) -> bool {
+        (&self.file, self.state) == (&other.file, other.state)
+    }
+}
+
+/// A network that is not in the drawing yet.
+pub(crate) struct Drafted {
+    pub(crate) layout: Arc<Layout>,
+    pub(crate) report: BuildReport,
+    /// The report in words.
+    pub(crate) lines: Vec<String>,
+}
+
+struct Made {
+    sources: DrawingSources,
+    network: Result<Drafted, UserError>,
+}
+
+/// Options and result of the network of the active file.
+pub(crate) struct NetworkDraft {
+    pub(crate) options: BuildOptions,
+    result: Option<(DraftKey, Made)>,
+    task: Option<(DraftKey, BackgroundTask<Made>)>,
+}
+
+impl Default for NetworkDraft {
+    fn default() -> Self {
+        let options = BuildOptions {
+            weld_m: WELD_M,
+            split_junctions: true,
+            split_crossings: true,
+            ..BuildOptions::default()
+        };
+        Self {
+            options,
+            result: None,
+            task: None,
+        }
+    }
+}
+
+impl NetworkDraft {
+    /// The key of the present drawing and options; `None` while the document is not there.
+    fn key(&self, files: &OpenFiles) -> Option<DraftKey> {
+        let active = files.active()?;
+        Some(DraftKey {
+            file: active.path().to_owned(),
+            state: active.document()?.state(),
+            options: self.options.clone(),
+        })
+    }
+
+    pub(crate) fn is_busy(&self) -> bool {
+        self.task.is_some()
+    }
+
+    /// Layers and notes of the active file.
+    pub(crate) fn sources(&self, files: &OpenFiles) -> Option<&DrawingSources> {
+        let path = files.active()?.path();
+        let (key, made) = self.result.as_ref()?;
+        (key.file == path).then_some(&made.sources)
+    }
+
+    /// The network of the present drawing by the last options, or why there is none; `is_ready`
+    /// tells whether the options are those of the panel.
+    pub(crate) fn network(&self, files: &OpenFiles) -> Option<Result<&Drafted, &UserError>> {
+        let (key, made) = self.result.as_ref()?;
+        key.is_of_drawing(&self.key(files)?)
+            .then_some(made.network.as_ref())
+    }
+
+    /// Returns `true` if [`Self::network`] is by the present options.
+    pub(crate) fn is_ready(&self, files: &OpenFiles) -> bool {
+        let done = self.result.as_ref().map(|(key, _)| key);
+        done.is_some() && done == self.key(files).as_ref()
+    }
+
+    /// Builds again after a change; takes a finished result.
+    pub(crate) fn update(&mut self, files: &OpenFiles, repaint: &RepaintHandle) {
+        if let Some((key, task)) = self.task.take() {
+            match task.result() {
+                None => self.task = Some((key, task)),
+                Some(Ok(made)) => self.result = Some((key, made)),
+                Some(Err(error)) => {
+                    let sources = DrawingSources::default();
+                    let network = Err(error);
+                    self.result = Some((key, Made { sources, network }));
+                }
+            }
+        }
+        let (Some(key), Some(document)) = (self.key(files), files.document()) else {
+            return;
+        };
+        if self.task.is_some() || self.is_ready(files) {
+            return;
+        }
+        let (snapshot, options) = (document.snapshot(), self.options.clone());
+        let task = BackgroundTask::start(repaint, move || {
+            let drawing = snapshot.to_layout();
+            let sources = DrawingSources::of(&drawing);
+            let network = build(&drawing, &options).map_err(UserError::from);
+            let network = network.map(|Network { layout, report }| Drafted {
+                layout: Arc::new(layout),
+                lines: report.lines(&options),
+                report,
+            });
+            Made { sources, network }
+        });
+        self.task = Some((key, task));
+    }
+
+    /// Frees the network; the options stay.
+    pub(crate) fn forget(&mut self) {
+        (self.result, self.task) = (None, None);
+    }
+
+    /// The rule of a layer; the default one if there is none.
+    pub(crate) fn rule(&self, layer: &str) -> LayerRule {
+        let rules = &mut self.options.layers.iter();
+        let found = rules.find(|rule| rule.name == layer);
+        found.cloned().unwrap_or_else(|| LayerRule {
+            name: layer.to_owned(),
+            ..LayerRule::default()
+        })
+    }
+
+    /// Replaces the rule of a layer; a rule that says nothing is dropped.
+    pub(crate) fn set_rule(&mut self, rule: LayerRule) {
+        let rules = &mut self.options.layers;
+        rules.retain(|other| other.name != rule.name);
+        let says_nothing = LayerRule {
+            name: rule.name.clone(),
+            ..LayerRule::default()
+        };
+        if rule != says_nothing {
+            rules.push(rule);
+        }
+    }
+}
+
+/// Adds a source to a list, or takes it out.
+pub(crate) fn toggle_source(sources: &mut Vec<NoteSource>, source: &NoteSource) {
+    let count = sources.len();
+    sources.retain(|other| other != source);
+    if sources.len() == count {
+        sources.push(source.clone());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rule_that_says_nothing_is_dropped() {
+        let mut draft = NetworkDraft::default();
+        let rule = LayerRule {
+            leave: true,
+            ..draft.rule("WALLS")
+        };
+        draft.set_rule(rule.clone());
+        draft.set_rule(rule.clone());
+        assert_eq!(draft.options.layers, [rule.clone()]);
+        let rule = LayerRule {
+            leave: false,
+            ..rule
+        };
+        draft.set_rule(rule);
+        assert_eq!(draft.options.layers, []);
+    }
+}
