@@ -6,18 +6,21 @@ use guideway_spline::{Bounds, uniform};
 
 /// Side of a cell, in points.
 const CELL_POINTS: f64 = 3.0;
+/// Bits of a word.
+const BITS: usize = u64::BITS as usize;
 /// Most cells along a side of the picture.
 const MAX_CELLS: f64 = 2_000.0;
 /// Most samples of a curve segment.
 const MAX_SAMPLES: f64 = 4_096.0;
 
-/// The cells of a picture that lines cross, as sums over all cells up to a column and row
-/// (summed-area table, Crow 1984).
+/// The cells of a picture that lines cross, one bit per cell: some kilobytes, which a view of labels
+/// reads a few words of each row for.
 pub(super) struct LineMask {
     cell_px: f64,
     columns: usize,
     rows: usize,
-    sums: Vec<u32>,
+    words_per_row: usize,
+    words: Vec<u64>,
 }
 
 impl LineMask {
@@ -34,16 +37,17 @@ impl LineMask {
         let cell_px = (CELL_POINTS * px_per_point).max(width.max(height) / MAX_CELLS);
         let cells = |side_px: f64| (side_px / cell_px).ceil() as usize;
         let (columns, rows) = (cells(width), cells(height));
+        let words_per_row = columns.div_ceil(BITS);
         let mut mask = Self {
             cell_px,
             columns,
             rows,
-            sums: vec![0; (columns + 1) * (rows + 1)],
+            words_per_row,
+            words: vec![0; words_per_row * rows],
         };
         for path in paths {
             mask.mark(path, view);
         }
-        mask.sum_up();
         mask
     }
 
@@ -66,26 +70,12 @@ impl LineMask {
                     && at_cell.x < self.columns as f64
                     && at_cell.y < self.rows as f64;
                 if is_inside {
-                    let cell = self.index(at_cell.x as usize + 1, at_cell.y as usize + 1);
-                    self.sums[cell] = 1;
+                    let (column, row) = (at_cell.x as usize, at_cell.y as usize);
+                    let word = row * self.words_per_row + column / BITS;
+                    self.words[word] |= 1 << (column % BITS);
                 }
             }
         }
-    }
-
-    fn sum_up(&mut self) {
-        for row in 1..=self.rows {
-            let mut of_row = 0;
-            for column in 1..=self.columns {
-                let cell = self.index(column, row);
-                of_row += self.sums[cell];
-                self.sums[cell] = of_row + self.sums[self.index(column, row - 1)];
-            }
-        }
-    }
-
-    fn index(&self, column: usize, row: usize) -> usize {
-        row * (self.columns + 1) + column
     }
 
     /// The part of a box that lines cross, from 0 to 1.
@@ -99,9 +89,19 @@ impl LineMask {
         if cells == 0 {
             return 0.0;
         }
-        let sum = |column, row| f64::from(self.sums[self.index(column, row)]);
-        let covered = sum(right, bottom) + sum(left, top) - sum(left, bottom) - sum(right, top);
-        covered / cells as f64
+        let of_row = |row: usize| {
+            let words = self.words[row * self.words_per_row..].iter().zip(0..);
+            let words = words.take(right.div_ceil(BITS)).skip(left / BITS);
+            let bits = words.map(|(word, at)| {
+                let first = left.saturating_sub(at * BITS).min(BITS - 1);
+                let unused = (BITS * (at + 1)).saturating_sub(right);
+                // Bits from `first` on, without the unused ones at the end.
+                (word & (u64::MAX << first) & (u64::MAX >> unused)).count_ones()
+            });
+            bits.sum::<u32>()
+        };
+        let covered: u32 = (top..bottom).map(of_row).sum();
+        f64::from(covered) / cells as f64
     }
 }
 
@@ -112,6 +112,38 @@ mod tests {
     use guideway_spline::{Point, Runs};
 
     use super::*;
+
+    #[test]
+    fn bits_are_counted_across_words() {
+        let (columns, rows) = (200, 3);
+        let mut mask = LineMask {
+            cell_px: 1.0,
+            columns,
+            rows,
+            words_per_row: columns.div_ceil(BITS),
+            words: vec![0; columns.div_ceil(BITS) * rows],
+        };
+        // Every third cell of the middle row.
+        for column in (0..columns).step_by(3) {
+            mask.words[mask.words_per_row + column / BITS] |= 1 << (column % BITS);
+        }
+        for (left, right) in [
+            (0, 200),
+            (1, 64),
+            (63, 65),
+            (64, 128),
+            (60, 130),
+            (199, 200),
+        ] {
+            let bounds = Bounds {
+                min: Point::new(f64::from(left), 0.0),
+                max: Point::new(f64::from(right), 3.0),
+            };
+            let counted = (left..right).filter(|column| column % 3 == 0).count() as f64;
+            let cells = f64::from(3 * (right - left));
+            assert_eq!(mask.coverage(bounds), counted / cells, "{left}..{right}");
+        }
+    }
 
     #[test]
     fn boxes_on_a_line_are_covered_and_others_are_not() {
