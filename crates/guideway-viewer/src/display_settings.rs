@@ -9,6 +9,8 @@ use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, Style, View};
 use serde::{Deserialize, Serialize};
 
+use crate::language::Language;
+
 /// Greatest width of paths without a width of their own, in meters.
 pub(crate) const MAX_WIDTH_M: f64 = 2.0;
 /// Range of the least width on screen, in points.
@@ -56,6 +58,8 @@ pub(crate) struct DisplaySettings {
     pub(crate) grid_step_m: Option<f64>,
     /// True if the dialogs of the desktop ask for file names; else the line of the window does.
     pub(crate) uses_desktop_dialogs: bool,
+    /// Language of the window; `None` takes that of the desktop.
+    pub(crate) language: Option<Language>,
 }
 
 impl Default for DisplaySettings {
@@ -74,6 +78,7 @@ impl Default for DisplaySettings {
             has_grid: true,
             grid_step_m: None,
             uses_desktop_dialogs: true,
+            language: None,
         }
     }
 }

@@ -15,6 +15,7 @@
 //! | backdrop | floor plan, swept areas | `backdrop` |
 //! | tools | pointer tools and gestures | `tools` |
 //! | selection | search, exact edits, selection commands, copied elements | `selection` |
+//! | language | English texts, and German ones beside them | `language` |
 //! | canvas | camera, input, painting, decorations | `canvas` |
 //! | export | pictures for files and clipboard | `export` |
 //! | preferences | what outlives a run | `preferences` |
@@ -36,6 +37,7 @@ mod editing;
 mod export;
 mod file_purpose;
 mod files;
+mod language;
 mod launch_options;
 mod measure;
 mod network_draft;

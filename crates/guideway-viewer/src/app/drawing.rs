@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::Context;
-use guideway_document::{Document, text_format};
+use guideway_document::Document;
 use guideway_layout::{Layout, Level, UserError};
 use guideway_scene::Table;
 use guideway_spline::{Affine, Point};
@@ -12,6 +12,7 @@ use super::state::App;
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::files::{Layer, NewLayout};
+use crate::language::{counted, t};
 use crate::panels::SideTab;
 use crate::selection::{
     CopiedElements, DUPLICATE_OFFSET_PX, PointerPlace, arrange_command, question, selection_command,
@@ -70,7 +71,7 @@ impl App {
         let selected = document.selected();
         let counts = Table::ALL.into_iter().filter_map(|of| {
             let count = selected.rows(of).len();
-            (count > 0).then(|| text_format::counted(count, of.element()))
+            (count > 0).then(|| counted(count, of.element()))
         });
         let text = counts.collect::<Vec<_>>().join(", ");
         let from = (!cuts).then(|| layer.path().to_owned());
@@ -91,7 +92,7 @@ impl App {
             return;
         };
         let Some(copied) = &mut self.copied else {
-            let notice = "Nothing is copied; select elements and press Ctrl+C first";
+            let notice = t("Nothing is copied; select elements and press Ctrl+C first");
             return self.dialogs.notices.add(notice);
         };
         let px_per_m = self.canvas.camera.view().map(|view| view.px_per_m());

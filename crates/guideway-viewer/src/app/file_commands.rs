@@ -11,6 +11,7 @@ use crate::action::{Action, Export};
 use crate::command::Command;
 use crate::export::{PictureContent, png_picture};
 use crate::files::{NewLayout, WriteOutcome};
+use crate::language::{say, t};
 use crate::panels::dialogs::{Question, Risk};
 use crate::services::{Job, PictureRequest};
 
@@ -106,7 +107,7 @@ impl App {
             Export::Svg { path } => {
                 let write = move || {
                     services.export_svg(&picture, &path)?;
-                    let text = format!("Wrote {}", shown_path(&path));
+                    let text = say!("Wrote {path}", path = shown_path(&path));
                     Ok(WriteOutcome::Written(text))
                 };
                 self.writer.start(None, None, repaint, write);
@@ -144,7 +145,7 @@ impl App {
     pub(super) fn is_writer_busy(&mut self) -> bool {
         let is_busy = self.writer.is_busy();
         if is_busy {
-            let notice = "Another file is being written; try again in a moment";
+            let notice = t("Another file is being written; try again in a moment");
             self.dialogs.notices.add(notice);
         }
         is_busy

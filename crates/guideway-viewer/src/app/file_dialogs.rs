@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::state::App;
 use crate::action::Action;
 use crate::file_purpose::{Picked, PromptKind};
+use crate::language::t;
 
 /// Said where the desktop has no dialog.
 const NO_DIALOG: &str = "This desktop has no file dialog: type the name";
@@ -31,7 +32,7 @@ impl App {
         let active = self.files.active().map(|layer| layer.path());
         let suggestion = kind.suggestion(active);
         if !self.open_picker(kind, suggestion) {
-            self.dialogs.prompt.set_problem(NO_DIALOG);
+            self.dialogs.prompt.set_problem(t(NO_DIALOG));
         }
     }
 
@@ -56,7 +57,7 @@ impl App {
             }
             Picked::File(kind, path) => kind.action(path, 0),
             Picked::Typed(..) if prompt.is_open() => {
-                prompt.set_problem(NO_DIALOG);
+                prompt.set_problem(t(NO_DIALOG));
                 None
             }
             Picked::Typed(kind, suggestion) => {

@@ -11,6 +11,7 @@ use super::state::App;
 use crate::backdrop::ActiveDocument;
 use crate::canvas::CanvasPainter;
 use crate::files::{Layer, LayerContext, LayerEvent};
+use crate::language::{say, set_language};
 use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
@@ -29,6 +30,7 @@ impl App {
     /// Shows one frame.
     pub(crate) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
+        set_language(self.settings.language.unwrap_or(self.language));
         self.poll(&ctx);
         self.take_input(&ctx);
         self.take_hover(&ctx);
@@ -111,7 +113,7 @@ impl App {
                 let is_changed = layer.document().is_some_and(Document::is_changed);
                 let mark = if is_changed { " *" } else { "" };
                 let name = match layer.is_untitled() {
-                    true => format!("{} (not saved yet)", layer.name()),
+                    true => say!("{name} (not saved yet)", name = layer.name()),
                     false => layer.name(),
                 };
                 format!("{name}{mark} - Guideway")

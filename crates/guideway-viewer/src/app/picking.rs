@@ -7,6 +7,7 @@ use super::basics::tool_context_of;
 use super::state::App;
 use crate::compare::Changed;
 use crate::files::Layer;
+use crate::language::t;
 use crate::network_draft::Drafted;
 use crate::panels::BottomView;
 use crate::route::{FoundRoute, place_of};
@@ -51,10 +52,9 @@ impl App {
         });
         match place {
             Some(place) => self.bottom.route.choose(place),
-            None => self
-                .dialogs
-                .notices
-                .add("Nothing is there; click a station, a node or the end of a path"),
+            None => self.dialogs.notices.add(t(
+                "Nothing is there; click a station, a node or the end of a path",
+            )),
         }
     }
 

@@ -14,6 +14,7 @@ use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
 use crate::files::LayerContext;
+use crate::language::{say, t};
 use crate::panels::dialogs::{Question, Risk};
 use crate::project::{
     Project, ProjectFile, ProjectPlan, ProjectView, SUFFIX, absolute_from, is_project, relative_to,
@@ -52,11 +53,13 @@ impl App {
         if let Err(error) = written {
             return notices.add(error);
         }
-        notices.inform(format!("Saved {}", shown_path(&path)));
+        notices.inform(say!("Saved {name}", name = shown_path(&path)));
         let layers = self.files.layers().iter();
         let untitled = layers.filter(|layer| layer.is_untitled()).count();
         if untitled > 0 {
-            notices.add("Layouts without a file are not in the project: save them, then save it");
+            notices.add(t(
+                "Layouts without a file are not in the project: save them, then save it",
+            ));
         }
         let error = self.files.remember_path(&path);
         self.project.path = Some(path);
@@ -132,13 +135,14 @@ impl App {
             is_dark: self.settings.is_dark,
             color_by: project.color_by.clone(),
             uses_desktop_dialogs: self.settings.uses_desktop_dialogs,
+            language: self.settings.language,
             ..project.look.clone()
         };
         self.recolor();
         let missing = self.open_project_files(path, &project);
         if !missing.is_empty() {
             let names = missing.join(", ");
-            let notice = format!("Files of the project that do not exist: {names}");
+            let notice = say!("Files of the project that do not exist: {names}", names);
             self.dialogs.notices.add(notice);
         }
         // Without a file nothing arrives that would set the view.

@@ -10,6 +10,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::file_purpose::PromptKind;
 use crate::files::{WriteOutcome, Written};
+use crate::language::{say, t};
 use crate::panels::dialogs::{Question, Risk};
 use crate::services::{LostPart, Saved};
 
@@ -86,7 +87,7 @@ impl App {
         };
         let accepted = layer.save.accepted_losses(&path);
         let Some((snapshot, notices)) = layer.begin_save() else {
-            let notice = "The file is still being loaded or edited; save again in a moment";
+            let notice = t("The file is still being loaded or edited; save again in a moment");
             return self.dialogs.notices.add(notice);
         };
         for notice in notices {
@@ -98,7 +99,9 @@ impl App {
             let accepts = |losses: &[LostPart]| losses.iter().all(is_known);
             let saved = services.save_layout(&snapshot.to_layout(), &file, &accepts)?;
             Ok(match saved {
-                Saved::Written(_) => WriteOutcome::Written(format!("Saved {}", shown_path(&file))),
+                Saved::Written(_) => {
+                    WriteOutcome::Written(say!("Saved {name}", name = shown_path(&file)))
+                }
                 Saved::TooLossy(losses) => WriteOutcome::TooLossy(losses),
             })
         };

@@ -14,6 +14,7 @@ use crate::display_settings::DisplaySettings;
 use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
+use crate::language::{Language, set_language};
 use crate::panels::dialogs::Dialogs;
 use crate::panels::{
     BottomPanel, FindingsPanel, NewEdgesPanel, PropertiesPanel, SideTabs, Welcome,
@@ -64,6 +65,8 @@ pub(crate) struct App {
     pub(crate) window_place: WindowPlace,
     /// Width of the side panel, in points.
     pub(super) panel_width: f32,
+    /// The language of the desktop.
+    pub(super) language: Language,
     /// The title that the window shows.
     pub(crate) title: String,
     /// Longest time that a frame waits for an edit.
@@ -82,6 +85,9 @@ impl App {
         let context = LayerContext { services, repaint };
         let (preferences_file, notice) = PreferencesFile::load(context.services.state_folder());
         let preferences = preferences_file.saved().clone();
+        let locale = context.services.locale().unwrap_or_default();
+        let language = Language::of_locale(&locale);
+        set_language(preferences.look.language.unwrap_or(language));
         let mut app = Self {
             files: OpenFiles::new(context.clone()),
             context,
@@ -114,6 +120,7 @@ impl App {
             preferences_file,
             window_place: preferences.window,
             panel_width: preferences.panel_width,
+            language,
             title: String::new(),
             edit_wait: EDIT_WAIT,
             first_picture_wait: Duration::ZERO,

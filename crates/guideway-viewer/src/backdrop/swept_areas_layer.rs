@@ -8,6 +8,7 @@ use guideway_envelope::{EnvelopeSource, SourceError};
 use guideway_scene::View;
 
 use crate::background::RepaintHandle;
+use crate::language::say;
 use crate::render_queue::BackgroundPicture;
 use crate::services::{AppServices, SweptAreas};
 
@@ -102,7 +103,11 @@ impl SweptAreasLayer {
         let vehicle = match self.vehicle() {
             Ok(vehicle) => vehicle,
             Err(error) => {
-                let error = format!("`{}` is not a vehicle: {error}", self.vehicle_text);
+                let error = say!(
+                    "`{text}` is not a vehicle: {error}",
+                    text = self.vehicle_text,
+                    error
+                );
                 return self.picture.fail(None, *view, error);
             }
         };
@@ -115,8 +120,9 @@ impl SweptAreasLayer {
             return;
         }
         let Some(rows) = swept_paths(active.document) else {
-            let error = format!(
-                "more than {MAX_UNSELECTED_PATHS} paths: select the paths whose areas to show"
+            let error = say!(
+                "more than {most} paths: select the paths whose areas to show",
+                most = MAX_UNSELECTED_PATHS
             );
             return self.picture.fail(Some(content), *view, error);
         };

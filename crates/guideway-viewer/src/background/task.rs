@@ -9,6 +9,7 @@ use std::time::Duration;
 use guideway_layout::UserError;
 
 use super::RepaintHandle;
+use crate::language::{language, set_language, t};
 use crate::services::WINDOW_ERROR;
 
 /// A closure that runs once on its own thread.
@@ -29,7 +30,9 @@ impl<T: Send + 'static> BackgroundTask<T> {
         let is_awaited = Arc::<AtomicBool>::default();
         let (repaint, skips_repaint) = (Arc::clone(repaint), Arc::clone(&is_awaited));
         // Without a thread the sender is dropped, and the result is an error.
+        let language = language();
         let _ = thread::Builder::new().spawn(move || {
+            set_language(language);
             // The receiver is gone if the task was dropped in the meantime.
             let _ = sender.send(work());
             if !skips_repaint.load(Ordering::SeqCst) {
@@ -79,8 +82,8 @@ impl<T: Send + 'static> BackgroundTask<T> {
 fn panicked() -> UserError {
     UserError::new(
         WINDOW_ERROR,
-        "the operation was stopped by an internal error, or for want of threads",
-        "Try again with a smaller selection, another render method, or fewer programs",
+        t("the operation was stopped by an internal error, or for want of threads"),
+        t("Try again with a smaller selection, another render method, or fewer programs"),
     )
 }
 

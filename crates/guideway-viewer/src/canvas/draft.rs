@@ -13,6 +13,7 @@ use super::paint_gesture::{HOVER_COLOR, MIN_OUTLINE_WIDTH, paint_outline};
 use super::screen::Screen;
 use super::shape_text::shape_text;
 use crate::display_settings::DisplaySettings;
+use crate::language::say;
 
 const TEXT_POINTS: f32 = 13.0;
 /// Opacity of the box behind the dimensions.
@@ -89,9 +90,17 @@ fn dimensions(points: &[Point<f64>]) -> String {
     };
     let along = *b - *a;
     let angle = along.y.atan2(along.x).to_degrees();
-    let last = format!("{} at {angle:.1}°", text_format::length(last_m));
+    let last = say!(
+        "{length} at {angle}°",
+        length = text_format::length(last_m),
+        angle = format!("{angle:.1}")
+    );
     if points.len() > 2 {
-        format!("{last}, {} in total", text_format::length(total_m))
+        say!(
+            "{last}, {total} in total",
+            last,
+            total = text_format::length(total_m)
+        )
     } else {
         last
     }

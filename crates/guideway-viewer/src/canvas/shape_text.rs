@@ -1,5 +1,6 @@
 //! The text about length and bends of a path.
 
+use crate::language::say;
 use guideway_document::measure::{Bend, tightest_radius_m};
 use guideway_document::text_format;
 use guideway_layout::PathRef;
@@ -14,9 +15,9 @@ pub(crate) fn shape_text(path: PathRef<'_>, bends: &[Bend]) -> String {
     match radius_m.is_finite() && radius_m < STRAIGHT_RADIUS_M {
         true => {
             let radius = text_format::length(radius_m);
-            format!("{length} long, tightest bend {radius}")
+            say!("{length} long, tightest bend {radius}", length, radius)
         }
-        false => format!("{length} long, straight"),
+        false => say!("{length} long, straight", length),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The changes of one comparison, with rows of both documents.
 
+use crate::language::{say, t};
 use guideway_document::{Element, Elements, Snapshot, text_format};
 use guideway_layout::{Change, Changes, CompareOptions, ElementChange, ElementKind, changes};
 use guideway_scene::Table;
@@ -102,28 +103,41 @@ fn table(kind: ElementKind) -> Option<Table> {
 
 /// `path a: maxSpeed 1 m/s, was 2 m/s`.
 fn text_of(of: Table, found: &Changes<'_>, change: &ElementChange) -> String {
-    let what = of.element();
+    let what = t(of.element());
     let id = found.id(change);
     let detail = match change.change {
-        Change::Added => "is new".to_owned(),
-        Change::Removed => "is gone".to_owned(),
-        Change::Renamed => format!("is called {} now", found.new_id(change).unwrap_or_default()),
-        Change::Moved { distance_m } => format!("moved by {}", text_format::length(distance_m)),
+        Change::Added => t("is new").to_owned(),
+        Change::Removed => t("is gone").to_owned(),
+        Change::Renamed => say!(
+            "is called {name} now",
+            name = found.new_id(change).unwrap_or_default()
+        ),
+        Change::Moved { distance_m } => say!(
+            "moved by {length}",
+            length = text_format::length(distance_m)
+        ),
         Change::Reshaped { greatest_m } => {
-            format!(
-                "has another shape, up to {} away",
-                text_format::length(greatest_m)
+            say!(
+                "has another shape, up to {length} away",
+                length = text_format::length(greatest_m)
             )
         }
         Change::Set(_) => {
             let Some(values) = found.values(change) else {
                 return format!("{what} {id}");
             };
-            let of = values.vehicle_type.map(|name| format!(" for {name}"));
+            let of = values.vehicle_type.map(|name| say!(" for {name}", name));
             let [before, after] = [values.before, values.after];
-            let [before, after] = [before, after].map(|v| v.unwrap_or_else(|| "none".to_owned()));
+            let [before, after] =
+                [before, after].map(|v| v.unwrap_or_else(|| t("none").to_owned()));
             let of = of.unwrap_or_default();
-            format!("{}{of} is {after}, was {before}", values.property)
+            say!(
+                "{name}{of} is {after}, was {before}",
+                name = values.property,
+                of,
+                after,
+                before
+            )
         }
     };
     format!("{what} {id}: {detail}")

@@ -16,6 +16,7 @@ use super::journal::Journal;
 use super::notice::Notice;
 use super::overlay::Overlay;
 use crate::background::{BackgroundTask, RepaintHandle};
+use crate::language::t;
 
 /// A document with its queued edits, journal and overlay.
 #[derive(Default)]
@@ -142,7 +143,7 @@ impl DocumentSlot {
             let copy = copy.and_then(|copy| copy.wait().ok());
             let (document, journal) = &mut *both;
             let Some(document) = Arc::get_mut(document) else {
-                let notice = "the layout is in use; try again".to_owned();
+                let notice = t("the layout is in use; try again").to_owned();
                 return (both, vec![notice]);
             };
             if let Some(copy) = copy {

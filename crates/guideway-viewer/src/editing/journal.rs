@@ -9,6 +9,7 @@ use guideway_layout::shown_path;
 use super::journal_file::JournalFile;
 use super::notice::Notice;
 use super::unsaved_work::{UnsavedSummary, UnsavedWork};
+use crate::language::{say, t};
 
 /// The journal of a document. It moves between threads with its document.
 #[derive(Default)]
@@ -29,11 +30,11 @@ impl Journal {
         match JournalFile::open(layout_file) {
             Ok(file) => {
                 journal.notice = file.mismatched_copy().map(|kept| {
-                    format!(
-                        "{} has changed since it was left with unsaved work. That work is kept in \
-                         {}",
-                        shown_path(layout_file),
-                        shown_path(kept)
+                    say!(
+                        "{file} has changed since it was left with unsaved work. That work is \
+                         kept in {copy}",
+                        file = shown_path(layout_file),
+                        copy = shown_path(kept)
                     )
                 });
                 journal.file = Some(file);
@@ -71,7 +72,7 @@ impl Journal {
     pub(super) fn check_is_decided(&self) -> Result<(), Notice> {
         match self.has_unsaved_work() {
             false => Ok(()),
-            true => Err("Recover or discard the unsaved work first".into()),
+            true => Err(t("Recover or discard the unsaved work first").into()),
         }
     }
 
@@ -93,12 +94,12 @@ impl Journal {
     pub(crate) fn resume(&mut self, progress: ReplayProgress, file: &Path) -> Option<Notice> {
         let journal = self.file.as_mut()?;
         let steps = match progress.entries {
-            1 => "Recovered 1 step".to_owned(),
-            entries => format!("Recovered {entries} steps"),
+            1 => t("Recovered 1 step").to_owned(),
+            entries => say!("Recovered {entries} steps", entries),
         };
         let result = journal.resume(progress, file).map(|is_all| match is_all {
             true => steps,
-            false => format!("{steps}; the journal is damaged after them"),
+            false => say!("{steps}; the journal is damaged after them", steps),
         });
         Some(
             self.close_on_error(result, file)
@@ -156,8 +157,12 @@ impl Journal {
 fn unusable(layout_file: &Path, error: &io::Error) -> Notice {
     let file = shown_path(layout_file);
     let reason = match error.kind() {
-        io::ErrorKind::WouldBlock => "the file is open in another window, which has the journal",
-        _ => &format!("cannot write the journal beside this file: {error}"),
+        io::ErrorKind::WouldBlock => t("the file is open in another window, which has the journal"),
+        _ => &say!("cannot write the journal beside this file: {error}", error),
     };
-    format!("{file}: {reason}. Unsaved work would not survive a crash: save often")
+    say!(
+        "{file}: {reason}. Unsaved work would not survive a crash: save often",
+        file,
+        reason
+    )
 }

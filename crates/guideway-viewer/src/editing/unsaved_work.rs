@@ -9,6 +9,7 @@ use guideway_document::{Document, ReplayProgress, count_records, replay};
 use guideway_layout::{UserError, shown_path};
 
 use super::journal_header::read_header;
+use crate::language::{say, t};
 use crate::services::{Job, WINDOW_ERROR};
 
 /// The size and age of unsaved work.
@@ -59,11 +60,12 @@ impl UnsavedWork {
         let &(saved_bytes, ref entries) = entries.map_err(|error| {
             UserError::new(
                 WINDOW_ERROR,
-                format!(
-                    "{}: cannot read the journal: {error}",
-                    shown_path(&self.journal)
+                say!(
+                    "{file}: cannot read the journal: {error}",
+                    file = shown_path(&self.journal),
+                    error
                 ),
-                "Make the file readable and recover again, or discard the unsaved work",
+                t("Make the file readable and recover again, or discard the unsaved work"),
             )
         })?;
         let replay_to = |document: &mut Document, from: ReplayProgress, end: usize| {
@@ -90,8 +92,8 @@ impl UnsavedWork {
         if job.is_cancelled() {
             return Err(UserError::new(
                 WINDOW_ERROR,
-                "the recovery of unsaved work was cancelled",
-                "The work is kept: choose again whether to recover or discard it",
+                t("the recovery of unsaved work was cancelled"),
+                t("The work is kept: choose again whether to recover or discard it"),
             ));
         }
         Ok(done)

@@ -6,6 +6,7 @@ use eframe::egui::{ColorImage, Context};
 use guideway_layout::UserError;
 
 use crate::background::{BackgroundTask, RepaintHandle};
+use crate::language::t;
 use crate::render_queue::color_image;
 use crate::services::{AppServices, PictureRequest};
 
@@ -38,7 +39,7 @@ impl Clipboard {
         self.task = None;
         Some(result.flatten().map(|image| {
             ctx.copy_image(image);
-            "The picture was copied to the clipboard".to_owned()
+            t("The picture was copied to the clipboard").to_owned()
         }))
     }
 }

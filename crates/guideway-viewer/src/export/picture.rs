@@ -10,6 +10,7 @@ use guideway_scene::{DrawList, FrameSize, RenderError, Style, View};
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
 use crate::display_settings::DisplaySettings;
 use crate::files::{Layer, OpenFiles};
+use crate::language::say;
 use crate::services::{AppServices, Job, PictureRequest};
 
 /// Everything that the canvas shows.
@@ -83,11 +84,16 @@ pub(crate) fn png_picture(
     let result = services.export_png(&picture, method, job, path);
     let path = shown_path(path);
     if job.is_cancelled() && result.is_err() {
-        return Ok(format!("The export of {path} was cancelled"));
+        return Ok(say!("The export of {path} was cancelled", path));
     }
     result?;
     let (width, height) = (picture.view.size().width(), picture.view.size().height());
-    Ok(format!("Wrote {path}, {width} x {height} pixels"))
+    Ok(say!(
+        "Wrote {path}, {width} x {height} pixels",
+        path,
+        width,
+        height
+    ))
 }
 
 /// The same part of the world at another width in pixels.

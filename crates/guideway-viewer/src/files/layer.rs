@@ -16,6 +16,7 @@ use super::loader::{Loader, NewLayout, Source};
 use super::save_state::SaveState;
 use crate::background::RepaintHandle;
 use crate::editing::{BackgroundTasks, DocumentSlot, EDIT_WAIT, EditReturn, EditTask, UnsavedWork};
+use crate::language::t;
 use crate::render_queue::LayerPicture;
 use crate::services::Job;
 
@@ -167,7 +168,8 @@ impl Layer {
     pub(crate) fn cancel_load(&mut self) {
         self.end_load();
         if self.document().is_none() {
-            self.error = Some("loading was cancelled; File > Reload reads the file again".into());
+            self.error =
+                Some(t("loading was cancelled; File > Reload reads the file again").into());
         }
     }
 

@@ -14,6 +14,7 @@ use guideway_scene::{Scene, SceneOptions};
 use super::draft_file::write_draft;
 use crate::background::RepaintHandle;
 use crate::editing::{Findings, UnsavedWork};
+use crate::language::{language, say, set_language, t};
 use crate::services::{AppServices, Job, WINDOW_ERROR};
 
 /// Longest time that the loader waits for the first picture before it builds the document: until
@@ -85,7 +86,9 @@ impl Loader {
         let is_recovering = unsaved.is_some();
         let watched = Arc::clone(&job);
         let failed = sender.clone();
+        let language = language();
         let started = thread::Builder::new().spawn(move || {
+            set_language(language);
             let send = |piece| {
                 // The receiver is gone if the file was closed in the meantime.
                 let _ = sender.send(piece);
@@ -117,8 +120,8 @@ impl Loader {
             }
         });
         if let Err(error) = started {
-            let message = format!("cannot start a thread that reads the file: {error}");
-            let remedy = "Close some programs or files, and open it again";
+            let message = say!("cannot start a thread that reads the file: {error}", error);
+            let remedy = t("Close some programs or files, and open it again");
             let error = UserError::new(WINDOW_ERROR, message, remedy);
             // The receiver is below.
             let _ = failed.send(Loaded::Failed(error));

@@ -15,6 +15,7 @@ use super::loader::NewLayout;
 use super::recent_files::RecentFiles;
 use super::save_state::changed_on_disk;
 use super::watcher::Watcher;
+use crate::language::say;
 
 /// The open files from the top; the active one is edited, and drawn above all.
 pub(crate) struct OpenFiles {
@@ -198,7 +199,7 @@ impl OpenFiles {
         let layer = self.layers.get_mut(index)?;
         if layer.save.is_saving() {
             let name = layer.name();
-            return Some(format!("{name} is being saved; try again in a moment"));
+            return Some(say!("{name} is being saved; try again in a moment", name));
         }
         layer.reload(options, drops_changes, &self.context);
         // The watcher takes the present state on disk as known.
@@ -260,7 +261,7 @@ impl OpenFiles {
                 notices.push(changed_on_disk(&name));
             } else {
                 notices.extend(self.reload(index, options.clone(), false));
-                notices.push(format!("{name} has changed on disk and is reloaded"));
+                notices.push(say!("{name} has changed on disk and is reloaded", name));
             }
         }
         notices
@@ -297,7 +298,10 @@ impl OpenFiles {
     /// Adds a file to the recent files, as [`Self::remember`] does.
     pub(crate) fn remember_path(&mut self, path: &Path) -> Option<String> {
         let error = self.recent.add(path).err()?;
-        Some(format!("cannot write the list of recent files: {error}"))
+        Some(say!(
+            "cannot write the list of recent files: {error}",
+            error
+        ))
     }
 }
 

@@ -6,6 +6,7 @@ use guideway_document::Snapshot;
 
 use super::watcher::Stamp;
 use crate::editing::{DocumentSlot, EditTask, Journal};
+use crate::language::say;
 use crate::services::LostPart;
 
 /// True if a file is being saved or reloaded, and its state on disk after the last save.
@@ -133,7 +134,10 @@ impl SaveState {
 
 /// The notice about a file that both another program and the user changed.
 pub(super) fn changed_on_disk(name: &str) -> String {
-    format!("{name} has changed on disk. File > Reload reads it and discards your changes")
+    say!(
+        "{name} has changed on disk. File > Reload reads it and discards your changes",
+        name
+    )
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use crate::action::Action;
 use crate::background::RepaintHandle;
 use crate::compare::Comparison;
 use crate::files::OpenFiles;
+use crate::language::t;
 use crate::network_draft::NetworkDraft;
 use crate::route::RouteSearch;
 
@@ -25,10 +26,10 @@ impl BottomView {
 
     fn name(self) -> &'static str {
         match self {
-            Self::Table => "Table",
-            Self::Route => "Route",
-            Self::Compare => "Compare",
-            Self::Network => "Network",
+            Self::Table => t("Table"),
+            Self::Route => t("Route"),
+            Self::Compare => t("Compare"),
+            Self::Network => t("Network"),
         }
     }
 }
@@ -95,7 +96,7 @@ impl BottomPanel {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if ui
                     .small_button("×")
-                    .on_hover_text("Hide the panel")
+                    .on_hover_text(t("Hide the panel"))
                     .clicked()
                 {
                     self.view = None;

@@ -4,6 +4,7 @@ use super::bottom_panel::BottomView;
 use crate::command::Command;
 use crate::display_settings::DisplaySettings;
 use crate::files::OpenFiles;
+use crate::language::t;
 use crate::tools::Tool;
 
 /// Everything that the state of a command depends on.
@@ -30,7 +31,7 @@ impl CommandState<'_> {
             _ => None,
         };
         let label = command.label();
-        step.map_or_else(|| label.to_owned(), |step| format!("{label}: {step}"))
+        step.map_or_else(|| label.to_owned(), |step| format!("{label}: {}", t(step)))
     }
 
     /// Returns `true` if a command has something to act on.

@@ -7,6 +7,7 @@ use crate::action::Action;
 use crate::canvas::change_color;
 use crate::compare::{ChangeKind, Changed, Comparison};
 use crate::files::OpenFiles;
+use crate::language::{say, t};
 
 const ROW_HEIGHT: f32 = 18.0;
 
@@ -18,13 +19,15 @@ pub(super) fn show(
     actions: &mut Vec<Action>,
 ) {
     let Some(active) = files.active().filter(|_| files.layers().len() > 1) else {
-        ui.label("Open another file to compare with; changes are those from it to this one");
+        ui.label(t(
+            "Open another file to compare with; changes are those from it to this one",
+        ));
         return;
     };
     ui.horizontal(|ui| {
-        ui.label(format!("Changes of {} from", active.name()));
+        ui.label(say!("Changes of {name} from", name = active.name()));
         let other = comparison.other(files).map(|(_, layer)| layer.name());
-        let text = other.unwrap_or_else(|| "choose a file…".to_owned());
+        let text = other.unwrap_or_else(|| t("choose a file…").to_owned());
         let chosen = ComboBox::from_id_salt("other file").selected_text(text);
         chosen.show_ui(ui, |ui| {
             for (index, layer) in files.layers().iter().enumerate() {
@@ -54,16 +57,16 @@ pub(super) fn show(
 
 fn show_counts(ui: &mut Ui, changed: &Changed) {
     for (kind, name) in [
-        (ChangeKind::Gone, "gone"),
-        (ChangeKind::New, "new"),
-        (ChangeKind::Changed, "changed"),
+        (ChangeKind::Gone, t("gone")),
+        (ChangeKind::New, t("new")),
+        (ChangeKind::Changed, t("changed")),
     ] {
         let count = text_format::count(changed.count(kind) as u64);
         let text = RichText::new(format!("{count} {name}"));
         ui.label(text.color(change_color(kind)));
     }
     if changed.lines.is_empty() && changed.groups.is_empty() {
-        ui.label("The files mean the same");
+        ui.label(t("The files mean the same"));
     }
 }
 

@@ -7,10 +7,10 @@ use crate::action::Action;
 use crate::backdrop::SweptAreasLayer;
 use crate::display_settings::{DisplaySettings, MAX_WIDTH_M, MIN_PX_RANGE};
 use crate::files::OpenFiles;
+use crate::language::t;
 
 /// Columns that color every layout, beside its attributes.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
-const FILE_COLORS: &str = "as in the file";
 
 /// Shows the section.
 pub(super) fn show(
@@ -22,35 +22,38 @@ pub(super) fn show(
 ) {
     let before = settings.clone();
     let columns = files.document().map_or(Vec::new(), |d| columns(d.layout()));
-    let color_by = settings.color_by.as_deref().unwrap_or(FILE_COLORS);
+    let file_colors = t("as in the file");
+    let color_by = settings.color_by.as_deref().unwrap_or(file_colors);
     let selected = columns.iter().find(|(name, _)| name == color_by);
     let selected = selected.map_or(color_by, |(_, label)| label).to_owned();
-    ComboBox::from_label("Color")
+    ComboBox::from_label(t("Color"))
         .selected_text(selected)
         .show_ui(ui, |ui| {
-            ui.selectable_value(&mut settings.color_by, None, FILE_COLORS);
+            ui.selectable_value(&mut settings.color_by, None, file_colors);
             for (name, label) in columns {
                 ui.selectable_value(&mut settings.color_by, Some(name), label);
             }
         });
-    ui.checkbox(&mut settings.is_thesis_rule, "Line widths of the thesis");
+    ui.checkbox(&mut settings.is_thesis_rule, t("Line widths of the thesis"));
     ui.add_enabled_ui(!settings.is_thesis_rule, |ui| {
         let width = Slider::new(&mut settings.width_m, 0.0..=MAX_WIDTH_M).suffix(" m");
-        ui.add(width.text("Width"));
+        ui.add(width.text(t("Width")));
         let min_width = Slider::new(&mut settings.min_px, MIN_PX_RANGE).suffix(" pt");
-        ui.add(min_width.text("Minimum"));
+        ui.add(min_width.text(t("Minimum")));
     });
-    ui.checkbox(&mut settings.is_density, "Density");
-    ui.checkbox(&mut settings.has_arrows, "Arrows");
-    ui.checkbox(&mut settings.has_symbols, "Nodes and stations");
-    ui.checkbox(&mut settings.has_labels, "Labels");
-    ui.checkbox(&mut settings.has_grid, "Grid");
+    ui.checkbox(&mut settings.is_density, t("Density"));
+    ui.checkbox(&mut settings.has_arrows, t("Arrows"));
+    ui.checkbox(&mut settings.has_symbols, t("Nodes and stations"));
+    ui.checkbox(&mut settings.has_labels, t("Labels"));
+    ui.checkbox(&mut settings.has_grid, t("Grid"));
     let mut is_dark = settings.is_dark;
-    if ui.checkbox(&mut is_dark, "Dark").clicked() {
+    if ui.checkbox(&mut is_dark, t("Dark")).clicked() {
         settings.set_dark(is_dark);
     }
-    ui.checkbox(&mut swept_areas.is_visible, "Swept areas");
-    let label = ui.label("Vehicle: LENGTHxWIDTH or LENGTHxWIDTH,REAR in meters, or `file`");
+    ui.checkbox(&mut swept_areas.is_visible, t("Swept areas"));
+    let label = ui.label(t(
+        "Vehicle: LENGTHxWIDTH or LENGTHxWIDTH,REAR in meters, or `file`",
+    ));
     ui.add(TextEdit::singleline(&mut swept_areas.vehicle_text))
         .labelled_by(label.id);
     if let Some(error) = swept_areas.error() {

@@ -9,6 +9,7 @@ use crate::action::Action;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::files::OpenFiles;
+use crate::language::{say, t};
 use crate::tools::Tools;
 
 /// Steps of the grid to choose from, in meters.
@@ -32,12 +33,12 @@ impl DrawingBar<'_> {
                 show_level(ui, document, &mut actions);
                 ui.separator();
             }
-            ui.label("Snap to");
-            ui.checkbox(&mut self.tools.snaps.to_objects, "paths")
-                .on_hover_text(
+            ui.label(t("Snap to"));
+            ui.checkbox(&mut self.tools.snaps.to_objects, t("paths"))
+                .on_hover_text(t(
                     "Ends, middles, crossings, tangents and perpendiculars; Alt snaps to nothing",
-                );
-            let grid = ui.checkbox(&mut self.tools.snaps.to_grid, "grid of");
+                ));
+            let grid = ui.checkbox(&mut self.tools.snaps.to_grid, t("grid of"));
             self.show_grid_step(ui, grid.id);
             ui.separator();
             let template = &self.tools.template;
@@ -45,17 +46,17 @@ impl DrawingBar<'_> {
                 .map(|(name, _)| name.as_str())
                 .collect();
             let types = match types.is_empty() {
-                true => "all vehicle types".to_owned(),
+                true => t("all vehicle types").to_owned(),
                 false => types.join(", "),
             };
             let direction = match template.direction {
-                Direction::Forward => "one-way",
-                Direction::Both => "two-way",
+                Direction::Forward => t("one-way"),
+                Direction::Both => t("two-way"),
             };
-            let text = format!("New paths: {direction}, {types}");
+            let text = say!("New paths: {direction}, {types}", direction, types);
             let button = ui.selectable_label(self.new_edges.is_open, text);
             let button =
-                button.on_hover_text("Direction, vehicle types and speeds of what is drawn");
+                button.on_hover_text(t("Direction, vehicle types and speeds of what is drawn"));
             if button.clicked() {
                 self.new_edges.is_open ^= true;
             }
@@ -71,7 +72,7 @@ impl DrawingBar<'_> {
         let step_m = &mut self.settings.grid_step_m;
         let text = |step_m: Option<f64>| match step_m {
             Some(step_m) => format!("{step_m} m"),
-            None => "automatic".to_owned(),
+            None => t("automatic").to_owned(),
         };
         ComboBox::from_id_salt("grid step")
             .selected_text(text(*step_m))
@@ -98,14 +99,14 @@ fn show_level(ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
         level.name.clone().unwrap_or_else(|| level.id.clone())
     };
     let shown = document.level();
-    let text = shown.map_or_else(|| "all".to_owned(), name);
-    let label = ui.label("Level");
+    let text = shown.map_or_else(|| t("all").to_owned(), name);
+    let label = ui.label(t("Level"));
     ComboBox::from_id_salt("level")
         .selected_text(text)
         .show_ui(ui, |ui| {
             let each = (0..document.layout().levels.len() as u32).map(Some);
             for level in std::iter::once(None).chain(each) {
-                let text = level.map_or_else(|| "all".to_owned(), name);
+                let text = level.map_or_else(|| t("all").to_owned(), name);
                 if ui.selectable_label(shown == level, text).clicked() {
                     let show = EditTask::view_change(move |document| document.show_level(level));
                     actions.push(Action::Edit(show));
@@ -114,5 +115,5 @@ fn show_level(ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
         })
         .response
         .labelled_by(label.id)
-        .on_hover_text("Shows this level only, and draws on it");
+        .on_hover_text(t("Shows this level only, and draws on it"));
 }

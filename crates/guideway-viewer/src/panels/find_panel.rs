@@ -5,12 +5,13 @@ use guideway_document::{Element, SelectMode};
 
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
+use crate::language::t;
 use crate::selection::Find;
 
 /// Shows the section.
 pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mut Vec<Action>) {
-    let label = ui.label("Name");
-    let field = TextEdit::singleline(&mut find.name).hint_text("path, node or station");
+    let label = ui.label(t("Name"));
+    let field = TextEdit::singleline(&mut find.name).hint_text(t("path, node or station"));
     let field = ui.add(field).labelled_by(label.id);
     if std::mem::take(&mut find.wants_focus) {
         field.request_focus();
@@ -26,9 +27,9 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
         let layout = document.layout();
         for element in find.results(document) {
             let kind = match element {
-                Element::Path(_) => "path",
-                Element::Node(_) => "node",
-                Element::Station(_) => "station",
+                Element::Path(_) => t("path"),
+                Element::Node(_) => t("node"),
+                Element::Station(_) => t("station"),
             };
             if ui.link(format!("{kind} {}", element.id(layout))).clicked() {
                 actions.push(Action::ZoomTo(element));
@@ -38,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
             ui.weak(more);
         }
     }
-    let label = ui.label("Query");
+    let label = ui.label(t("Query"));
     let field = TextEdit::singleline(&mut find.query).hint_text("maxSpeed > 1 and id ~ dock");
     let field = ui.add(field).labelled_by(label.id);
     if field.changed() {
@@ -49,9 +50,9 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
     }
     ui.horizontal(|ui| {
         for (label, mode) in [
-            ("Select matches", SelectMode::Replace),
-            ("Add", SelectMode::Add),
-            ("Remove", SelectMode::Remove),
+            (t("Select matches"), SelectMode::Replace),
+            (t("Add"), SelectMode::Add),
+            (t("Remove"), SelectMode::Remove),
         ] {
             if ui.button(label).clicked() {
                 actions.push(Action::SelectByQuery(mode));

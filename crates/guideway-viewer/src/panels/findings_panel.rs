@@ -11,6 +11,7 @@ use crate::action::Action;
 use crate::canvas::severity_color;
 use crate::editing::{EditTask, MarkedSeverities, SEVERITIES};
 use crate::files::{Layer, OpenFiles};
+use crate::language::{counted, say, t};
 
 /// Longest list of findings of one kind.
 const MAX_LISTED: usize = 200;
@@ -44,7 +45,7 @@ impl FindingsPanel {
             };
             title.append(text, 0.0, format);
         };
-        add("Findings", Color32::PLACEHOLDER);
+        add(t("Findings"), Color32::PLACEHOLDER);
         for (count, severity) in counts.into_iter().zip(SEVERITIES) {
             if count > 0 {
                 let count = format!(" {}", text_format::count(count));
@@ -57,7 +58,7 @@ impl FindingsPanel {
     /// Shows the tab.
     pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
         let Some(layer) = files.active() else {
-            ui.label("No file is open");
+            ui.label(t("No file is open"));
             return;
         };
         self.show_check(ui, layer, actions);
@@ -67,10 +68,10 @@ impl FindingsPanel {
         self.show_switches(ui, by_severity(&findings.diagnostics));
         let state = layer.document().map(|document| document.state());
         if state.is_some_and(|state| state != findings.state) {
-            ui.small("These findings predate the last change");
+            ui.small(t("These findings predate the last change"));
         }
         if findings.diagnostics.is_empty() {
-            ui.label("No findings");
+            ui.label(t("No findings"));
         }
         for kind in FindingKind::of([&findings.diagnostics]) {
             let list = KindList {
@@ -85,12 +86,13 @@ impl FindingsPanel {
     fn show_check(&mut self, ui: &mut Ui, layer: &Layer, actions: &mut Vec<Action>) {
         ui.horizontal_wrapped(|ui| {
             let radius = DragValue::new(&mut self.min_radius_m).range(0.0..=1000.0);
-            let radius = radius.speed(0.05).prefix("Minimum radius ").suffix(" m");
-            ui.add(radius)
-                .on_hover_text("Bends tighter than this are findings; 0 turns this check off");
+            let radius = radius.speed(0.05).prefix(t("Minimum radius ")).suffix(" m");
+            ui.add(radius).on_hover_text(t(
+                "Bends tighter than this are findings; 0 turns this check off",
+            ));
             let can_check = layer.document().is_some() && !layer.tasks.is_checking();
             ui.add_enabled_ui(can_check, |ui| {
-                if ui.button("Check again").clicked() {
+                if ui.button(t("Check again")).clicked() {
                     actions.push(Action::Check(self.check_options()));
                 }
             });
@@ -103,11 +105,11 @@ impl FindingsPanel {
     /// Shows a switch per severity for the marks in the drawing.
     fn show_switches(&mut self, ui: &mut Ui, counts: [u64; 3]) {
         ui.horizontal_wrapped(|ui| {
-            ui.label("In the drawing:");
+            ui.label(t("In the drawing:"));
             let names = ["error", "warning", "note"].into_iter().zip(SEVERITIES);
             let switches = self.marked.0.iter_mut().zip(counts);
             for ((name, severity), (is_on, count)) in names.zip(switches) {
-                let text = RichText::new(text_format::counted(count, name));
+                let text = RichText::new(counted(count, name));
                 ui.checkbox(is_on, text.color(severity_color(severity)));
             }
         });
@@ -148,7 +150,7 @@ impl KindList<'_> {
             }
             let more = count.saturating_sub(MAX_LISTED as u64);
             if more > 0 {
-                ui.small(format!("and {} more", text_format::count(more)));
+                ui.small(say!("and {count} more", count = text_format::count(more)));
             }
         });
     }
@@ -159,15 +161,18 @@ impl KindList<'_> {
         if let (true, Some(document)) = (link.clicked(), self.document) {
             actions.push(match locate(document.layout(), &finding.place) {
                 Some(element) => Action::ZoomTo(element),
-                None => Action::Notify(format!("{} has no position in the plane", finding.place)),
+                None => Action::Notify(say!(
+                    "{place} has no position in the plane",
+                    place = finding.place
+                )),
             });
         }
         let element = located(&finding.place).filter(|_| has_fixes(finding.code));
         if let (Some(element), Some(document)) = (element, self.document) {
-            ui.menu_button("Fix", |ui| {
+            ui.menu_button(t("Fix"), |ui| {
                 let proposed = fixes(document, finding.code, element);
                 if proposed.is_empty() {
-                    ui.label("Nothing can be done here automatically");
+                    ui.label(t("Nothing can be done here automatically"));
                 }
                 for fix in proposed {
                     if offer(ui, &fix, actions) {

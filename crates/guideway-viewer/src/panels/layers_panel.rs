@@ -4,7 +4,7 @@ use eframe::egui::collapsing_header::CollapsingState;
 use eframe::egui::{
     Align, Button, Color32, Id, Label, Layout, RichText, Role, Slider, Ui, WidgetInfo,
 };
-use guideway_document::{Document, text_format};
+use guideway_document::Document;
 use guideway_layout::{Level, shown_path};
 use guideway_scene::{Rgba, Table};
 
@@ -13,6 +13,7 @@ use crate::backdrop::FloorPlanLayer;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::files::{Layer, LayerLook, OpenFiles};
+use crate::language::{counted, say, t};
 
 /// Shows the tab.
 pub(super) fn show(
@@ -24,7 +25,7 @@ pub(super) fn show(
 ) {
     let (active, count) = (files.active_index(), files.layers().len());
     if count == 0 {
-        ui.label("No file is open");
+        ui.label(t("No file is open"));
     }
     for (index, layer) in files.layers_mut().iter_mut().enumerate() {
         let id = Id::unique(("layer", layer.path()));
@@ -55,11 +56,11 @@ impl LayerRow {
     /// Shows visibility, name, and the buttons that move and close the file.
     fn show(&self, ui: &mut Ui, layer: &mut Layer, actions: &mut Vec<Action>) {
         let checkbox = ui.checkbox(&mut layer.is_visible, "");
-        checkbox.on_hover_text("Show this file");
+        checkbox.on_hover_text(t("Show this file"));
         let right = Layout::right_to_left(Align::Center);
         ui.with_layout(right, |ui| {
             let close = ui.small_button("×");
-            if close.on_hover_text("Close this file").clicked() {
+            if close.on_hover_text(t("Close this file")).clicked() {
                 actions.push(Action::Close(self.index));
             }
             if self.count > 1 {
@@ -71,8 +72,8 @@ impl LayerRow {
                 let button = Button::selectable(self.is_active, name).truncate();
                 let path = shown_path(layer.path());
                 let hint = match self.is_active {
-                    true => format!("{path}\nThis file is edited, and drawn on top"),
-                    false => format!("{path}\nA click edits this file from now on"),
+                    true => format!("{path}\n{}", t("This file is edited, and drawn on top")),
+                    false => format!("{path}\n{}", t("A click edits this file from now on")),
                 };
                 if ui.add(button).on_hover_text(hint).clicked() {
                     actions.push(Action::Activate(self.index));
@@ -83,8 +84,8 @@ impl LayerRow {
 
     fn show_order(&self, ui: &mut Ui, actions: &mut Vec<Action>) {
         for (glyph, by, hint) in [
-            ("↓", 1, "Draw this file below the next one"),
-            ("↑", -1, "Draw this file above the one before"),
+            ("↓", 1, t("Draw this file below the next one")),
+            ("↑", -1, t("Draw this file above the one before")),
         ] {
             // The first of the list is on top, as in other programs.
             let to = self.index.checked_add_signed(by);
@@ -120,7 +121,7 @@ impl LayerRow {
         });
         ui.horizontal(|ui| {
             let slider = Slider::new(&mut look.opacity, 0.0..=1.0).show_value(false);
-            ui.add(slider).on_hover_text("Opacity of the paths");
+            ui.add(slider).on_hover_text(t("Opacity of the paths"));
             show_color(ui, look, settings);
         });
         if let Some(document) = layer.document().filter(|d| d.layout().levels.len() > 1) {
@@ -136,14 +137,14 @@ impl LayerRow {
         };
         let levels = levels(document);
         let shows_all = levels.iter().all(|(l, _)| document.shows_level(Some(*l)));
-        let all = Button::selectable(shows_all, "All levels").truncate();
+        let all = Button::selectable(shows_all, t("All levels")).truncate();
         if ui.add(all).clicked() && !shows_all {
             change(EditTask::view_change(|d: &mut Document| d.show_level(None)));
         }
         for (level, name) in levels {
             ui.horizontal(|ui| {
                 let mut is_shown = document.shows_level(Some(level));
-                let hint = format!("Shows {name} beside other levels");
+                let hint = say!("Shows {name} beside other levels", name);
                 let switch = ui.checkbox(&mut is_shown, "").on_hover_text(&hint);
                 switch.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_shown, &hint));
                 if switch.changed() {
@@ -155,7 +156,7 @@ impl LayerRow {
                 let button = Button::selectable(is_drawn_on, name).truncate();
                 let button = ui
                     .add(button)
-                    .on_hover_text("Shows it alone, and draws on it");
+                    .on_hover_text(t("Shows it alone, and draws on it"));
                 if button.clicked() {
                     change(EditTask::view_change(move |document: &mut Document| {
                         document.show_level(Some(level));
@@ -169,11 +170,11 @@ impl LayerRow {
 /// Names and switches of the kinds of elements.
 fn kinds(look: &mut LayerLook) -> [(&'static str, &mut bool); 5] {
     [
-        ("Paths", &mut look.has_paths),
-        ("Nodes", &mut look.has_nodes),
-        ("Stations", &mut look.has_stations),
-        ("Names", &mut look.has_names),
-        ("Arrows", &mut look.has_arrows),
+        (t("Paths"), &mut look.has_paths),
+        (t("Nodes"), &mut look.has_nodes),
+        (t("Stations"), &mut look.has_stations),
+        (t("Names"), &mut look.has_names),
+        (t("Arrows"), &mut look.has_arrows),
     ]
 }
 
@@ -183,11 +184,11 @@ fn show_color(ui: &mut Ui, look: &mut LayerLook, settings: &DisplaySettings) {
     let Rgba { r, g, b, .. } = color.unwrap_or(Rgba::BLACK);
     let mut picked = Color32::from_rgb(r, g, b);
     let button = ui.color_edit_button_srgba(&mut picked);
-    let button = button.on_hover_text("Color of the paths that have none of their own");
+    let button = button.on_hover_text(t("Color of the paths that have none of their own"));
     if button.changed() {
         look.color = Some(Rgba::opaque(picked.r(), picked.g(), picked.b()));
     }
-    if look.color.is_some() && ui.small_button("Default color").clicked() {
+    if look.color.is_some() && ui.small_button(t("Default color")).clicked() {
         look.color = None;
     }
 }
@@ -197,15 +198,18 @@ fn contents(document: &Document) -> String {
     let (scene, layout) = (document.scene(), document.layout());
     let places = |of: Table| {
         let count = of.row_count(layout) - scene.removed(of).count();
-        text_format::counted(count as u64, of.element())
+        counted(count as u64, of.element())
     };
-    let paths = text_format::counted(scene.path_count() as u64, "path");
+    let paths = counted(scene.path_count() as u64, "path");
     let (nodes, stations) = (places(Table::Nodes), places(Table::Stations));
     let mut text = format!("{paths}, {nodes}, {stations}");
     let refused = layout.refused.len();
-    for (count, what) in [(scene.hidden_count(), "hidden"), (refused, "not drawable")] {
+    for (count, what) in [
+        (scene.hidden_count(), t("hidden")),
+        (refused, t("not drawable")),
+    ] {
         if count > 0 {
-            let count = text_format::counted(count as u64, "path");
+            let count = counted(count as u64, "path");
             text += &format!("; {count} {what}");
         }
     }
@@ -218,8 +222,8 @@ fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
     }
     ui.separator();
     let label = match floor_plan.is_reading() {
-        true => "floor plan (loading)",
-        false => "floor plan",
+        true => t("floor plan (loading)"),
+        false => t("floor plan"),
     };
     ui.checkbox(&mut floor_plan.is_visible, label);
     let text = floor_plan.text();

@@ -9,6 +9,7 @@ use super::toolbar;
 use crate::action::Action;
 use crate::command::{Command, MENUS, Menu, shortcuts_of};
 use crate::files::FileWriter;
+use crate::language::t;
 use crate::services::Job;
 
 /// Interval of progress updates. On a software renderer a frame takes a tenth of a second of the
@@ -27,21 +28,21 @@ impl MenuBar<'_> {
         let mut actions = Vec::new();
         egui::MenuBar::new().ui(ui, |ui| {
             for menu in &MENUS {
-                ui.menu_button(menu.name, |ui| actions.extend(self.menu(menu, ui)));
+                ui.menu_button(t(menu.name), |ui| actions.extend(self.menu(menu, ui)));
             }
             ui.separator();
             actions.extend(toolbar::show(ui, &self.commands));
             for layer in self.commands.files.layers() {
                 if let Some(job) = layer.load_job() {
                     let verb = match layer.is_recovering() {
-                        true => "recovering",
-                        false => "loading",
+                        true => t("recovering"),
+                        false => t("loading"),
                     };
                     progress(ui, format!("{verb} {}", layer.name()), job);
                 }
             }
             if let Some(job) = self.writer.job() {
-                progress(ui, "writing PNG".to_owned(), job);
+                progress(ui, t("writing PNG").to_owned(), job);
             }
         });
         actions
@@ -84,7 +85,7 @@ fn progress(ui: &mut Ui, text: String, job: &Job) {
     let bar = ProgressBar::new(job.fraction().unwrap_or(0.0));
     ui.add(bar.desired_width(120.0));
     ui.ctx().request_repaint_after(PROGRESS_INTERVAL);
-    if ui.button("Cancel").clicked() {
+    if ui.button(t("Cancel")).clicked() {
         job.cancel();
     }
 }

@@ -7,6 +7,7 @@ use guideway_network::{DirectionRule, DrawingSources, NoteSource};
 use crate::action::Action;
 use crate::canvas::{CUT_COLOR, JOINED_COLOR};
 use crate::files::OpenFiles;
+use crate::language::{say, t};
 use crate::network_draft::{NetworkDraft, toggle_source};
 
 const SPEEDS_M_S: std::ops::RangeInclusive<f64> = 0.01..=100.0;
@@ -24,7 +25,9 @@ pub(super) fn show(
     actions: &mut Vec<Action>,
 ) {
     if files.active().is_none() {
-        ui.label("Open a drawing, such as a DXF file; its lines become the edges of a network");
+        ui.label(t(
+            "Open a drawing, such as a DXF file; its lines become the edges of a network",
+        ));
         return;
     }
     let sources = draft.sources(files).cloned().unwrap_or_default();
@@ -32,10 +35,12 @@ pub(super) fn show(
         show_lengths(ui, draft);
         show_layers(ui, draft, &sources);
         let (stations, names) = (&mut draft.options.stations, &mut draft.options.names);
-        show_notes(ui, "Stations", stations, &sources);
-        show_notes(ui, "Names of nodes", names, &sources);
-        ui.checkbox(&mut draft.options.two_way, "Two-way")
-            .on_hover_text("Vehicles drive in both directions; else as the lines were drawn");
+        show_notes(ui, t("Stations"), stations, &sources);
+        show_notes(ui, t("Names of nodes"), names, &sources);
+        ui.checkbox(&mut draft.options.two_way, t("Two-way"))
+            .on_hover_text(t(
+                "Vehicles drive in both directions; else as the lines were drawn",
+            ));
     });
     show_result(ui, files, draft, actions);
 }
@@ -47,21 +52,21 @@ fn length(ui: &mut Ui, value_m: &mut f64) {
 
 fn show_lengths(ui: &mut Ui, draft: &mut NetworkDraft) {
     let options = &mut draft.options;
-    ui.label("Join ends within");
+    ui.label(t("Join ends within"));
     length(ui, &mut options.weld_m);
-    ui.label("Cut at");
-    ui.checkbox(&mut options.split_junctions, "junctions")
-        .on_hover_text("Where the end of a line meets the middle of another");
-    ui.checkbox(&mut options.split_crossings, "crossings");
+    ui.label(t("Cut at"));
+    ui.checkbox(&mut options.split_junctions, t("junctions"))
+        .on_hover_text(t("Where the end of a line meets the middle of another"));
+    ui.checkbox(&mut options.split_crossings, t("crossings"));
     let mut is_smooth = options.smooth_m.is_some();
-    ui.checkbox(&mut is_smooth, "Smooth within")
-        .on_hover_text("Chains of short lines become curves");
+    ui.checkbox(&mut is_smooth, t("Smooth within"))
+        .on_hover_text(t("Chains of short lines become curves"));
     let mut smooth_m = options.smooth_m.unwrap_or(SMOOTH_M);
     if is_smooth {
         length(ui, &mut smooth_m);
     }
     options.smooth_m = is_smooth.then_some(smooth_m);
-    ui.label("Notes reach");
+    ui.label(t("Notes reach"));
     length(ui, &mut options.reach_m);
 }
 
@@ -69,7 +74,7 @@ fn show_lengths(ui: &mut Ui, draft: &mut NetworkDraft) {
 fn show_layers(ui: &mut Ui, draft: &mut NetworkDraft, sources: &DrawingSources) {
     let layers = sources.layers.iter();
     let used = layers.filter(|(name, _)| !draft.rule(name).leave).count();
-    let text = format!("Layers: {used} of {}", sources.layers.len());
+    let text = say!("Layers: {used} of {all}", used, all = sources.layers.len());
     ui.menu_button(text, |ui| {
         ScrollArea::vertical().show(ui, |ui| {
             Grid::new("layers of the drawing").show(ui, |ui| {
@@ -86,22 +91,22 @@ fn show_layer(ui: &mut Ui, draft: &mut NetworkDraft, name: &str, paths: u64) {
     let mut rule = draft.rule(name);
     let mut is_used = !rule.leave;
     let shown = match name {
-        "" => "(no layer)".to_owned(),
+        "" => t("(no layer)").to_owned(),
         name => single_line(name, NAME_CHARS),
     };
     ui.checkbox(&mut is_used, format!("{shown} ({})", count(paths)));
     rule.leave = !is_used;
     let mut has_speed = rule.max_speed_m_s.is_some();
-    ui.checkbox(&mut has_speed, "speed");
+    ui.checkbox(&mut has_speed, t("speed"));
     let mut speed_m_s = rule.max_speed_m_s.unwrap_or(1.0);
     let field = DragValue::new(&mut speed_m_s).range(SPEEDS_M_S).speed(0.05);
     ui.add_enabled(has_speed, field.suffix(" m/s"));
     rule.max_speed_m_s = has_speed.then_some(speed_m_s);
     let directions = [
-        (None, "as all"),
-        (Some(DirectionRule::Both), "two-way"),
-        (Some(DirectionRule::Forward), "as drawn"),
-        (Some(DirectionRule::Backward), "against the drawing"),
+        (None, t("as all")),
+        (Some(DirectionRule::Both), t("two-way")),
+        (Some(DirectionRule::Forward), t("as drawn")),
+        (Some(DirectionRule::Backward), t("against the drawing")),
     ];
     let chosen = directions
         .iter()
@@ -121,13 +126,13 @@ fn show_layer(ui: &mut Ui, draft: &mut NetworkDraft, name: &str, paths: u64) {
 /// Shows a menu of the notes of the drawing, to choose those with a meaning.
 fn show_notes(ui: &mut Ui, what: &str, chosen: &mut Vec<NoteSource>, sources: &DrawingSources) {
     let text = match &chosen[..] {
-        [] => format!("{what}: none"),
+        [] => say!("{what}: none", what),
         [one] => format!("{what}: {}", single_line(&one.to_string(), NAME_CHARS)),
-        more => format!("{what}: {} sources", more.len()),
+        more => say!("{what}: {count} sources", what, count = more.len()),
     };
     ui.menu_button(text, |ui| {
         if sources.notes.is_empty() {
-            ui.label("The drawing has no texts, blocks, points or circles");
+            ui.label(t("The drawing has no texts, blocks, points or circles"));
         }
         ScrollArea::vertical().show(ui, |ui| {
             for (source, notes) in &sources.notes {
@@ -146,15 +151,15 @@ fn show_result(ui: &mut Ui, files: &OpenFiles, draft: &NetworkDraft, actions: &m
     let network = draft.network(files);
     ui.horizontal(|ui| {
         let can_make = draft.is_ready(files) && network.is_some_and(|network| network.is_ok());
-        let button = Button::new("Make the network");
-        let hint = "As a new layout beside the drawing, which stays as it is";
+        let button = Button::new(t("Make the network"));
+        let hint = t("As a new layout beside the drawing, which stays as it is");
         let button = ui.add_enabled(can_make, button).on_hover_text(hint);
         if button.clicked() {
             actions.push(Action::MakeNetwork);
         }
-        ui.colored_label(JOINED_COLOR, "○ joined");
-        ui.colored_label(CUT_COLOR, "× cut");
-        ui.label("◇ station");
+        ui.colored_label(JOINED_COLOR, t("○ joined"));
+        ui.colored_label(CUT_COLOR, t("× cut"));
+        ui.label(t("◇ station"));
         if draft.is_busy() {
             ui.spinner();
         }

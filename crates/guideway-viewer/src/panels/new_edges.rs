@@ -1,5 +1,6 @@
 //! The New paths window: direction, greatest speed and vehicle types of what is drawn.
 
+use crate::language::{say, t};
 use eframe::egui::{Button, Context, DragValue, Pos2, TextEdit, Window};
 use guideway_document::{Document, EdgeTemplate};
 use guideway_layout::Direction;
@@ -23,17 +24,17 @@ impl NewEdgesPanel {
         template: &mut EdgeTemplate,
     ) {
         let mut is_open = self.is_open;
-        let window = Window::new("New paths").open(&mut is_open);
+        let window = Window::new(t("New paths")).open(&mut is_open);
         window.resizable(false).default_pos(at).show(ctx, |ui| {
             let mut is_two_way = template.direction == Direction::Both;
-            ui.checkbox(&mut is_two_way, "Two-way");
+            ui.checkbox(&mut is_two_way, t("Two-way"));
             template.direction = match is_two_way {
                 true => Direction::Both,
                 false => Direction::Forward,
             };
             ui.horizontal(|ui| {
                 let mut has_speed = template.max_speed.is_some();
-                ui.checkbox(&mut has_speed, "Greatest speed");
+                ui.checkbox(&mut has_speed, t("Greatest speed"));
                 let mut speed = template.max_speed.unwrap_or(1.0);
                 if has_speed {
                     let value = DragValue::new(&mut speed).speed(0.05).suffix(" m/s");
@@ -41,7 +42,7 @@ impl NewEdgesPanel {
                 }
                 template.max_speed = has_speed.then_some(speed);
             });
-            let label = ui.label("Vehicle types, with their speeds in m/s");
+            let label = ui.label(t("Vehicle types, with their speeds in m/s"));
             let field = TextEdit::singleline(&mut self.types)
                 .hint_text("tugger: 1.5, stacker: 1.2")
                 .desired_width(260.0);
@@ -54,12 +55,12 @@ impl NewEdgesPanel {
             if let Some(error) = &self.error {
                 ui.colored_label(ui.visuals().error_fg_color, error);
             }
-            ui.small("Without vehicle types, all may use the paths");
+            ui.small(t("Without vehicle types, all may use the paths"));
             let selected = document.and_then(|document| {
                 let path = document.selection().min()?;
                 Some((document, path))
             });
-            let like = Button::new("As the selected path");
+            let like = Button::new(t("As the selected path"));
             let like = ui.add_enabled(selected.is_some(), like);
             if let (true, Some((document, path))) = (like.clicked(), selected) {
                 *template = document.template_of(path);
@@ -87,17 +88,17 @@ fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
                 let value = value.filter(|speed| speed.is_finite() && *speed > 0.0);
                 let value = value.ok_or_else(|| {
                     let speed = speed.trim();
-                    format!("`{speed}` is no speed above 0; write `tugger: 1.5`")
+                    say!("`{speed}` is no speed above 0; write `tugger: 1.5`", speed)
                 })?;
                 (name.trim(), Some(value))
             }
             None => (part, None),
         };
         if name.is_empty() {
-            return Err(format!("`{part}` has no name before the colon"));
+            return Err(say!("`{part}` has no name before the colon", part));
         }
         if types.iter().any(|(other, _)| other == name) {
-            return Err(format!("`{name}` is there twice"));
+            return Err(say!("`{name}` is there twice", name));
         }
         types.push((name.to_owned(), speed));
     }

@@ -4,6 +4,7 @@ use eframe::egui::{ComboBox, Grid, Ui};
 
 use crate::action::Action;
 use crate::files::OpenFiles;
+use crate::language::{say, t};
 use crate::render_queue::MethodSelection;
 
 /// Shows the section.
@@ -27,7 +28,7 @@ pub(super) fn show(
             ui.monospace(format!("{:.2} ms", stage.elapsed_ms));
             ui.end_row();
         }
-        ui.label("request to picture");
+        ui.label(t("request to picture"));
         ui.monospace(format!("{:.2} ms", shown.wall_ms));
         ui.end_row();
     });
@@ -38,9 +39,9 @@ pub(super) fn show(
 
 /// Shows the list of methods. Returns the clicked one; the inner `None` is the best.
 fn show_methods(ui: &mut Ui, methods: &MethodSelection) -> Option<Option<String>> {
-    let best = format!("automatic: {}", methods.best());
+    let best = say!("automatic: {method}", method = methods.best());
     let mut clicked = None;
-    ComboBox::from_label("Render method")
+    ComboBox::from_label(t("Render method"))
         .selected_text(methods.chosen().unwrap_or(&best))
         .show_ui(ui, |ui| {
             let is_best = methods.chosen().is_none();

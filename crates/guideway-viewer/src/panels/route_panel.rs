@@ -5,6 +5,7 @@ use guideway_document::{Element, text_format};
 
 use crate::action::Action;
 use crate::files::OpenFiles;
+use crate::language::{counted, say, t};
 use crate::route::{FoundRoute, RouteSearch, Slot};
 
 const ROW_HEIGHT: f32 = 18.0;
@@ -17,15 +18,17 @@ pub(super) fn show(
     actions: &mut Vec<Action>,
 ) {
     ui.horizontal(|ui| {
-        show_place(ui, search, Slot::From, "From");
+        show_place(ui, search, Slot::From, t("From"));
         let turn = ui.small_button(RichText::new("⇄").monospace());
-        if turn.on_hover_text("Exchange start and goal").clicked() {
+        if turn.on_hover_text(t("Exchange start and goal")).clicked() {
             search.turn_around();
         }
-        show_place(ui, search, Slot::To, "To");
+        show_place(ui, search, Slot::To, t("To"));
         show_vehicle_type(ui, files, search);
-        ui.checkbox(&mut search.shows_area, "Swept area")
-            .on_hover_text("The area that the vehicle of View > Vehicle covers along the route");
+        ui.checkbox(&mut search.shows_area, t("Swept area"))
+            .on_hover_text(t(
+                "The area that the vehicle of View > Vehicle covers along the route",
+            ));
         if search.is_busy() {
             ui.spinner();
         }
@@ -33,9 +36,9 @@ pub(super) fn show(
     match search.result(files.active_index()) {
         None => {
             let hint = match search.picking() {
-                Some(Slot::From) => "Click the station or node where the route starts",
-                Some(Slot::To) => "Click the station or node where the route ends",
-                None => "Choose start and goal",
+                Some(Slot::From) => t("Click the station or node where the route starts"),
+                Some(Slot::To) => t("Click the station or node where the route ends"),
+                None => t("Choose start and goal"),
             };
             ui.label(hint);
         }
@@ -48,7 +51,7 @@ pub(super) fn show(
             ui.horizontal(|ui| {
                 ui.strong(sums);
                 let slider = Slider::new(&mut driven, 0.0..=1.0).show_value(false);
-                ui.add(slider.text("vehicle"));
+                ui.add(slider.text(t("vehicle")));
                 ui.monospace(format!("{:.1} m", f64::from(driven) * length_m));
             });
             show_steps(ui, route, actions);
@@ -58,10 +61,10 @@ pub(super) fn show(
 }
 
 fn show_place(ui: &mut Ui, search: &mut RouteSearch, slot: Slot, label: &str) {
-    let name = search.place(slot).map_or("choose…", |place| &place.name);
+    let name = search.place(slot).map_or(t("choose…"), |place| &place.name);
     let button = Button::new(format!("{label}: {name}"));
     let button = button.selected(search.picking() == Some(slot));
-    let hint = "Then click a station or node in the drawing";
+    let hint = t("Then click a station or node in the drawing");
     if ui.add(button).on_hover_text(hint).clicked() {
         search.pick(slot);
     }
@@ -76,7 +79,7 @@ fn show_vehicle_type(ui: &mut Ui, files: &OpenFiles, search: &mut RouteSearch) {
     let chosen = search.vehicle_type.as_ref();
     let chosen = chosen.filter(|name| names.contains(name)).unwrap_or(first);
     let chosen = chosen.clone();
-    ComboBox::from_label("vehicle type")
+    ComboBox::from_label(t("vehicle type"))
         .selected_text(&chosen)
         .show_ui(ui, |ui| {
             for name in names {
@@ -89,7 +92,7 @@ fn show_vehicle_type(ui: &mut Ui, files: &OpenFiles, search: &mut RouteSearch) {
 
 /// `3 paths, 120 m, 2 min 5 s`.
 fn sums(route: &FoundRoute) -> String {
-    let paths = text_format::counted(route.steps.len() as u64, "path");
+    let paths = counted(route.steps.len() as u64, "path");
     let length = text_format::length(route.length_m);
     format!("{paths}, {length}, {}", time_text(route.time_s))
 }
@@ -109,22 +112,23 @@ fn show_steps(ui: &mut Ui, route: &FoundRoute, actions: &mut Vec<Action>) {
             let step = &route.steps[number];
             let row = &step.row;
             let turn = match row.turn_s > 0.0 {
-                true => format!(
-                    "turn by {:.0}° in {}, ",
-                    row.turn_rad.to_degrees(),
-                    time_text(row.turn_s)
+                true => say!(
+                    "turn by {angle}° in {time}, ",
+                    angle = format!("{:.0}", row.turn_rad.to_degrees()),
+                    time = time_text(row.turn_s)
                 ),
                 false => String::new(),
             };
-            let text = format!(
-                "{}. {turn}{} to {}: {} at {:.2} m/s, {}; after {}",
-                number + 1,
-                step.path,
-                step.to,
-                text_format::length(row.length_m),
-                row.speed_m_s,
-                time_text(row.drive_s),
-                time_text(row.end_s),
+            let text = say!(
+                "{number}. {turn}{path} to {to}: {length} at {speed} m/s, {time}; after {all}",
+                number = number + 1,
+                turn,
+                path = step.path,
+                to = step.to,
+                length = text_format::length(row.length_m),
+                speed = format!("{:.2}", row.speed_m_s),
+                time = time_text(row.drive_s),
+                all = time_text(row.end_s),
             );
             if ui.link(text).clicked() {
                 actions.push(Action::ZoomTo(Element::Path(row.path)));

@@ -1,11 +1,12 @@
 //! The head of the Properties tab: what is selected, and moves, copies and rotations by numbers.
 
 use eframe::egui::{DragValue, Label, Ui};
-use guideway_document::{Elements, text_format};
+use guideway_document::Elements;
 use guideway_scene::Table;
 
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
+use crate::language::{counted, say, t};
 use crate::selection::ExactEdit;
 
 /// Shows the head, which always takes the same space.
@@ -17,32 +18,34 @@ pub(super) fn show(
 ) {
     let text = match files.document() {
         Some(document) => summary(document.selected()),
-        None if files.active().is_some_and(Layer::is_busy) => "An edit is in progress".to_owned(),
-        None => "No layout is open".to_owned(),
+        None if files.active().is_some_and(Layer::is_busy) => {
+            t("An edit is in progress").to_owned()
+        }
+        None => t("No layout is open").to_owned(),
     };
     ui.add(Label::new(text).truncate());
     ui.horizontal(|ui| {
-        ui.label("Offset");
+        ui.label(t("Offset"));
         ui.add(DragValue::new(&mut exact.by_x_m).speed(0.1).suffix(" m"));
         ui.add(DragValue::new(&mut exact.by_y_m).speed(0.1).suffix(" m"));
-        if ui.button("Move").clicked() {
+        if ui.button(t("Move")).clicked() {
             actions.push(Action::Edit(exact.move_selection()));
         }
     });
     ui.horizontal(|ui| {
         let suffix = match exact.copies {
-            1 => " copy",
-            _ => " copies",
+            1 => t(" copy"),
+            _ => t(" copies"),
         };
         let copies = DragValue::new(&mut exact.copies).range(1..=1000);
         ui.add(copies.suffix(suffix));
-        if ui.button("Copy, one offset apart").clicked() {
+        if ui.button(t("Copy, one offset apart")).clicked() {
             actions.push(Action::Edit(exact.copy_selection()));
         }
     });
     ui.horizontal(|ui| {
         ui.add(DragValue::new(&mut exact.angle_deg).suffix("°"));
-        if ui.button("Rotate about its center").clicked() {
+        if ui.button(t("Rotate about its center")).clicked() {
             actions.push(Action::Edit(exact.rotate_selection()));
         }
     });
@@ -52,12 +55,12 @@ pub(super) fn show(
 pub(super) fn summary(selected: &Elements) -> String {
     let counts = Table::ALL.into_iter().filter_map(|of| {
         let count = selected.rows(of).len();
-        (count > 0).then(|| text_format::counted(count, of.element()))
+        (count > 0).then(|| counted(count, of.element()))
     });
     let counts: Vec<String> = counts.collect();
     match counts.is_empty() {
-        true => "Nothing is selected".to_owned(),
-        false => format!("{} selected", counts.join(" and ")),
+        true => t("Nothing is selected").to_owned(),
+        false => say!("{counts} selected", counts = counts.join(t(" and "))),
     }
 }
 

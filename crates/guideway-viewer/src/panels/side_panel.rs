@@ -9,6 +9,7 @@ use crate::action::Action;
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
 use crate::display_settings::DisplaySettings;
 use crate::files::OpenFiles;
+use crate::language::t;
 use crate::render_queue::MethodSelection;
 use crate::selection::{ExactEdit, Find};
 
@@ -37,11 +38,11 @@ impl SideTab {
 
     pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::Layers => "Layers",
-            Self::Properties => "Properties",
-            Self::Find => "Find",
-            Self::Findings => "Findings",
-            Self::View => "View",
+            Self::Layers => t("Layers"),
+            Self::Properties => t("Properties"),
+            Self::Find => t("Find"),
+            Self::Findings => t("Findings"),
+            Self::View => t("View"),
         }
     }
 }
@@ -141,7 +142,7 @@ impl SidePanel<'_> {
             SideTab::View => {
                 let (settings, swept_areas) = (&mut *self.settings, &mut *self.swept_areas);
                 display_panel::show(ui, self.files, settings, swept_areas, actions);
-                CollapsingHeader::new("Rendering").show(ui, |ui| {
+                CollapsingHeader::new(t("Rendering")).show(ui, |ui| {
                     render_panel::show(ui, self.files, self.methods, actions);
                 });
             }

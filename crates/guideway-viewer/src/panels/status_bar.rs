@@ -10,6 +10,7 @@ use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::OpenFiles;
+use crate::language::{say, t};
 use crate::tools::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
 
 /// Size of a point of a screen at 96 points per inch, in meters.
@@ -51,7 +52,7 @@ impl StatusBar<'_> {
             let layer = self.files.active();
             let overlay = layer.and_then(|layer| layer.slot.overlay().last());
             if self.settings.has_marks() && overlay.is_some_and(|o| o.marks.left_out) {
-                ui.label("Zoom in to show all marks");
+                ui.label(t("Zoom in to show all marks"));
                 ui.separator();
             }
             ui.add(Label::new(tool_hint(self.tools.tool())).truncate());
@@ -74,7 +75,11 @@ impl StatusBar<'_> {
         let layer = self.files.layers().get(other.file)?;
         let document = layer.document()?;
         let (path, name) = (hovered(document, &other.hit), layer.name());
-        Some(format!("{path}, in {name} (a click edits this file)"))
+        Some(say!(
+            "{path}, in {name} (a click edits this file)",
+            path,
+            name
+        ))
     }
 
     /// Shows the position of the pointer and the scale, in fields of constant width.
@@ -88,11 +93,11 @@ impl StatusBar<'_> {
             |at_m| format!("x {:>9.3} y {:>9.3} m", at_m.x, at_m.y),
         );
         ui.monospace(position)
-            .on_hover_text("Position of the pointer");
+            .on_hover_text(t("Position of the pointer"));
         ui.separator();
         let scale = scale_text(view.px_per_m() / self.canvas.px_per_point());
         ui.monospace(scale)
-            .on_hover_text("Scale on a screen of 96 points per inch");
+            .on_hover_text(t("Scale on a screen of 96 points per inch"));
         ui.separator();
     }
 }
@@ -115,16 +120,25 @@ fn hovered(document: &Document, hit: &Hit) -> String {
     let paths = &document.layout().paths;
     let path = paths.get(hit.path as usize);
     let way = match path.direction() {
-        Direction::Forward => "one-way",
-        Direction::Both => "two-way",
+        Direction::Forward => t("one-way"),
+        Direction::Both => t("two-way"),
     };
     let id = |path: u32| paths.id(path as usize);
     let length = text_format::length(path.length_m());
-    let text = format!("path {}: {length}, {way}", id(hit.path));
+    let text = say!(
+        "path {name}: {length}, {way}",
+        name = id(hit.path),
+        length,
+        way
+    );
     match document.reverse_path_at(hit, MAX_HOVER_CANDIDATES) {
         Some(reverse) => {
             let reverse = id(reverse);
-            format!("{text} (a second click selects the reverse path {reverse})")
+            say!(
+                "{text} (a second click selects the reverse path {reverse})",
+                text,
+                reverse
+            )
         }
         None => text,
     }
@@ -132,15 +146,15 @@ fn hovered(document: &Document, hit: &Hit) -> String {
 
 fn tool_hint(tool: Tool) -> &'static str {
     match tool {
-        Tool::Select => "Click or drag a box to select; drag the selection to move it",
-        Tool::Points => "Drag nodes and control points; Insert adds one, Backspace removes it",
-        Tool::Line => "Click or type points; Enter, a double or a right click finishes",
-        Tool::Arc => "Click start, end and a point between, or type a radius: r2",
-        Tool::Bezier => "Click the end, two control points, the next end; Enter finishes",
-        Tool::Curve => "Click or type points; Enter, a double or a right click finishes",
-        Tool::Node => "Click to create a node, on a path to split it",
-        Tool::Station => "Click a node to put a station there, or a free place",
-        Tool::Measure => "Click to add points; a double click starts over",
+        Tool::Select => t("Click or drag a box to select; drag the selection to move it"),
+        Tool::Points => t("Drag nodes and control points; Insert adds one, Backspace removes it"),
+        Tool::Line => t("Click or type points; Enter, a double or a right click finishes"),
+        Tool::Arc => t("Click start, end and a point between, or type a radius: r2"),
+        Tool::Bezier => t("Click the end, two control points, the next end; Enter finishes"),
+        Tool::Curve => t("Click or type points; Enter, a double or a right click finishes"),
+        Tool::Node => t("Click to create a node, on a path to split it"),
+        Tool::Station => t("Click a node to put a station there, or a free place"),
+        Tool::Measure => t("Click to add points; a double click starts over"),
     }
 }
 

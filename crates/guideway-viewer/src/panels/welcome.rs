@@ -9,6 +9,7 @@ use crate::action::Action;
 use crate::backdrop::FloorPlanLayer;
 use crate::command::{Command, shortcuts_of};
 use crate::files::OpenFiles;
+use crate::language::t;
 
 /// Commands of the card.
 const COMMANDS: [Command; 3] = [Command::NewLayout, Command::Open, Command::ExampleSite];
@@ -56,7 +57,7 @@ fn content(ui: &mut Ui, recent: &[(PathBuf, bool)]) -> Option<Action> {
     let mut action = None;
     ui.set_width(WIDTH);
     ui.label(RichText::new("Guideway").size(TITLE_POINTS).strong());
-    ui.label("Path layouts of automated guided vehicles");
+    ui.label(t("Path layouts of automated guided vehicles"));
     ui.add_space(8.0);
     for command in COMMANDS {
         let mut button = Button::new(command.label()).min_size([WIDTH, 0.0].into());
@@ -71,7 +72,7 @@ fn content(ui: &mut Ui, recent: &[(PathBuf, bool)]) -> Option<Action> {
     for (number, (file, _)) in there.enumerate() {
         if number == 0 {
             ui.add_space(8.0);
-            ui.label(RichText::new("Recent files").strong());
+            ui.label(RichText::new(t("Recent files")).strong());
         }
         let name = shown_path(Path::new(file.file_name().unwrap_or(file.as_os_str())));
         let button = ui.add(Button::new(name).frame(false).truncate());
@@ -80,6 +81,6 @@ fn content(ui: &mut Ui, recent: &[(PathBuf, bool)]) -> Option<Action> {
         }
     }
     ui.add_space(8.0);
-    ui.weak("Or drop a file on the window");
+    ui.weak(t("Or drop a file on the window"));
     action
 }

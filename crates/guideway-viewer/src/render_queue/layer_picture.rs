@@ -12,6 +12,7 @@ use super::renderer::Renderer;
 use super::request::RenderRequest;
 use super::worker::{Picture, RenderEvent};
 use crate::background::RepaintHandle;
+use crate::language::say;
 use crate::services::AppServices;
 
 /// Renders one file and holds its last picture.
@@ -116,9 +117,10 @@ impl LayerPicture {
                 Ok(RenderEvent::Failed(why)) => events.push(PictureEvent::Failed(why)),
                 Err(TryRecvError::Empty) => return events,
                 Err(TryRecvError::Disconnected) => {
-                    events.push(PictureEvent::FellBack(format!(
-                        "an internal error stopped rendering {name}. Switched to \
-                         `{FALLBACK_METHOD}`"
+                    events.push(PictureEvent::FellBack(say!(
+                        "an internal error stopped rendering {name}. Switched to `{other}`",
+                        name,
+                        other = FALLBACK_METHOD
                     )));
                     let (services, repaint) = (Arc::clone(services), Arc::clone(repaint));
                     self.renderer.restart(services, FALLBACK_METHOD, repaint);

@@ -16,6 +16,7 @@ use super::method_selection::FALLBACK_METHOD;
 use super::queue::{RenderJob, RenderQueue, SceneUpdate};
 use super::request::RenderRequest;
 use crate::background::RepaintHandle;
+use crate::language::{language, say, set_language};
 use crate::services::AppServices;
 
 /// A message from the render thread to the window.
@@ -60,7 +61,11 @@ pub(super) fn spawn(
         frame: None,
     };
     // Without a thread the sender is dropped, which the window reports.
-    let thread = thread::Builder::new().spawn(move || worker.run());
+    let language = language();
+    let thread = thread::Builder::new().spawn(move || {
+        set_language(language);
+        worker.run();
+    });
     (events, thread.ok())
 }
 
@@ -145,7 +150,12 @@ impl Worker {
             return;
         }
         let name = &self.method_name;
-        let notice = format!("method `{name}` failed: {why}. Switched to `{FALLBACK_METHOD}`");
+        let notice = say!(
+            "method `{name}` failed: {why}. Switched to `{other}`",
+            name,
+            why,
+            other = FALLBACK_METHOD
+        );
         self.send(RenderEvent::FellBack(notice));
         self.apply(SceneUpdate::Method(FALLBACK_METHOD.to_owned()));
         self.render(*request, cancel);

@@ -6,6 +6,7 @@ use guideway_network::{Place, RouteOptions, RouteRow, Router};
 use guideway_scene::Table;
 
 use super::track::Track;
+use crate::language::say;
 
 /// Greatest distance of the shown swept area from the exact one, in meters.
 const AREA_TOLERANCE_M: f64 = 0.02;
@@ -63,7 +64,7 @@ impl FoundRoute {
                 .collect();
             let name = place.name.clone();
             match nodes.is_empty() {
-                true => Err(format!("{name} has no node; choose another place")),
+                true => Err(say!("{name} has no node; choose another place", name)),
                 false => Ok(Place { name, nodes }),
             }
         };

@@ -9,6 +9,7 @@ use guideway_spline::Point;
 
 use crate::command::Command;
 use crate::editing::EditTask;
+use crate::language::t;
 
 /// Distance from a path at which it is split at its middle, in meters.
 const ON_PATH_M: f64 = 1e-3;
@@ -133,11 +134,11 @@ pub(super) fn corners(document: &Document) -> Result<Vec<u32>, UserError> {
         false => selected,
     };
     if nodes.is_empty() {
-        let message = "no node is selected, and no two selected paths meet";
+        let message = t("no node is selected, and no two selected paths meet");
         return Err(UserError::new(
             "selection",
             message,
-            "Select a node, or the two paths at it",
+            t("Select a node, or the two paths at it"),
         ));
     }
     Ok(nodes)

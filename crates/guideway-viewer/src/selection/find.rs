@@ -1,9 +1,10 @@
 //! Search by name, and the query that selects paths.
 
-use guideway_document::{Document, Element, search, text_format};
+use guideway_document::{Document, Element, search};
 use guideway_scene::Table;
 
 use crate::background::{BackgroundTask, RepaintHandle};
+use crate::language::{counted, say};
 
 /// Longest list of results of one kind of element.
 const MAX_RESULTS: u64 = 30;
@@ -42,7 +43,7 @@ impl Find {
         let more = more.filter(|(_, count)| *count > 0);
         more.map(|(of, count)| {
             let what = format!("more {}", of.element());
-            format!("and {}", text_format::counted(count, &what))
+            say!("and {more}", more = counted(count, &what))
         })
         .collect()
     }

@@ -7,6 +7,7 @@ use guideway_spline::Point;
 use super::arrange::{corners, selected_nodes, selected_paths};
 use crate::command::Command;
 use crate::editing::EditTask;
+use crate::language::{say, t};
 
 /// The question for what a command needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,20 +34,25 @@ pub(crate) fn question(
         })
     };
     Some(match command {
-        Command::Fillet => corners(document).and_then(|_| ask("Radius of the corner, in m", "1")),
-        Command::Weld => {
-            selected_paths(document).and_then(|_| ask("Weld ends within, in m", "0.05"))
+        Command::Fillet => {
+            corners(document).and_then(|_| ask(t("Radius of the corner, in m"), "1"))
         }
-        Command::Distribute => ask("Distance from node to node, in m; empty keeps the ends", ""),
+        Command::Weld => {
+            selected_paths(document).and_then(|_| ask(t("Weld ends within, in m"), "0.05"))
+        }
+        Command::Distribute => ask(
+            t("Distance from node to node, in m; empty keeps the ends"),
+            "",
+        ),
         Command::Array => something(document)
-            .and_then(|()| ask("Number of copies, and the step x, y in m", "1, 1, 0")),
+            .and_then(|()| ask(t("Number of copies, and the step x, y in m"), "1, 1, 0")),
         Command::MoveToLevel => something(document).and_then(|()| {
             let names = level_names(document.layout()).join(", ");
-            ask(&format!("Level, one of: {names}"), "")
+            ask(&say!("Level, one of: {names}", names), "")
         }),
         Command::Rename => {
             let element = only_element(document.selected());
-            element.and_then(|element| ask("New name", element.id(document.layout())))
+            element.and_then(|element| ask(t("New name"), element.id(document.layout())))
         }
         _ => return None,
     })
@@ -111,7 +117,7 @@ pub(crate) fn prompted_edit(command: Command, text: &str) -> Result<EditTask, St
             let renamed = document.rename(of, row, &text);
             renamed.map_err(|error| UserError::from(ShapeError::from(error)))
         }),
-        _ => return Err("this command needs no text".to_owned()),
+        _ => return Err(t("this command needs no text").to_owned()),
     })
 }
 
@@ -122,8 +128,10 @@ fn copies(count: f64) -> Result<u32, String> {
     let is_count = count.fract() == 0.0 && (1.0..=MAX_COPIES).contains(&count);
     match is_count {
         true => Ok(count as u32),
-        false => Err(format!(
-            "{count} is no number of copies; type a whole number from 1 to {MAX_COPIES}"
+        false => Err(say!(
+            "{count} is no number of copies; type a whole number from 1 to {most}",
+            count,
+            most = MAX_COPIES
         )),
     }
 }
@@ -134,13 +142,17 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let parts = text.split(is_separator).filter(|part| !part.is_empty());
     let number = |part: &str| {
         let value = part.parse::<f64>().ok().filter(|value| value.is_finite());
-        value.ok_or_else(|| format!("`{part}` is no number; write it as 1.5"))
+        value.ok_or_else(|| say!("`{part}` is no number; write it as 1.5", part))
     };
     let found: Vec<f64> = parts.map(number).collect::<Result<_, _>>()?;
     let count = found.len();
     found.try_into().map_err(|_| match N {
-        1 => format!("type one number, not {count}"),
-        _ => format!("type {N} numbers, separated by commas, not {count}"),
+        1 => say!("type one number, not {count}", count),
+        _ => say!(
+            "type {all} numbers, separated by commas, not {count}",
+            all = N,
+            count
+        ),
     })
 }
 
@@ -152,8 +164,8 @@ fn something(document: &Document) -> Result<(), UserError> {
 }
 
 fn nothing_selected() -> UserError {
-    let remedy = "Click a path, node or station first";
-    UserError::new("selection", "nothing is selected", remedy)
+    let remedy = t("Click a path, node or station first");
+    UserError::new("selection", t("nothing is selected"), remedy)
 }
 
 /// The selected element, if it is the only one.
@@ -166,8 +178,8 @@ fn only_element(selected: &Elements) -> Result<Element, UserError> {
         (None, _) => Err(nothing_selected()),
         _ => Err(UserError::new(
             "selection",
-            "several elements are selected, and a name is for one",
-            "Select one of them",
+            t("several elements are selected, and a name is for one"),
+            t("Select one of them"),
         )),
     }
 }
@@ -184,7 +196,11 @@ fn level_named(document: &Document, name: &str) -> Result<u32, String> {
     let level = document.layout().level_named(name);
     level.ok_or_else(|| {
         let names = level_names(document.layout()).join(", ");
-        format!("there is no level `{name}`; the levels are: {names}")
+        say!(
+            "there is no level `{name}`; the levels are: {names}",
+            name,
+            names
+        )
     })
 }
 

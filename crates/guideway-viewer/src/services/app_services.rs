@@ -148,6 +148,11 @@ pub trait AppServices: Send + Sync {
         true
     }
 
+    /// The locale of the desktop, such as `de_DE.UTF-8`.
+    fn locale(&self) -> Option<String> {
+        None
+    }
+
     /// Folder for state that outlives a run, such as recent files; `None` keeps no state.
     fn state_folder(&self) -> Option<PathBuf> {
         None

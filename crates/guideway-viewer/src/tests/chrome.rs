@@ -8,6 +8,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::display_settings::ThemeChoice;
+use crate::language::Language;
 use crate::tools::Tool;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -147,4 +148,26 @@ fn settings_dialog_changes_theme_and_grid() {
     let licenses = env!("CARGO_PKG_LICENSE");
     let line = window.harness.query_by_label_contains(licenses);
     assert!(line.is_some());
+}
+
+#[test]
+fn german_window_has_german_menus_panels_and_notices() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.app().settings.language = Some(Language::German);
+    window.harness.run_steps(3);
+    for label in ["Datei", "Bearbeiten", "Eigenschaften", "Befunde", "Suchen"] {
+        let found = window.harness.query_all_by_label_contains(label).count();
+        assert!(found > 0, "{label}");
+    }
+    window.key(Modifiers::COMMAND, Key::A);
+    window.harness.run_steps(3);
+    let counts = "3 Wege und 6 Knoten gewählt";
+    assert!(window.harness.query_by_label(counts).is_some());
+    // A notice of a background thread.
+    window.key(Modifiers::NONE, Key::Delete);
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait(|app| has_notice(app, "ist gespeichert"));
+    window.app().settings.language = None;
+    window.harness.run_steps(3);
+    assert!(window.harness.query_by_label("File").is_some());
 }

@@ -1,5 +1,6 @@
 //! The text that is typed instead of a click: a length, an angle, coordinates or a radius.
 
+use crate::language::{say, t};
 use guideway_spline::Point;
 
 /// The forms, for people.
@@ -34,11 +35,11 @@ pub(super) enum Typed {
 pub(super) fn parse(text: &str) -> Result<Typed, String> {
     let text = text.trim();
     if let Some(radius) = text.strip_prefix(['r', 'R']) {
-        return Ok(Typed::Radius(positive(radius, "radius")?));
+        return Ok(Typed::Radius(positive(radius, t("radius"))?));
     }
     if let Some((length, angle)) = text.split_once('<') {
         return Ok(Typed::Polar {
-            length_m: positive(length, "length")?,
+            length_m: positive(length, t("length"))?,
             angle_deg: number(angle.trim().trim_end_matches('°'))?,
         });
     }
@@ -51,8 +52,8 @@ pub(super) fn parse(text: &str) -> Result<Typed, String> {
                 None => Typed::Place(point),
             })
         }
-        (None, Some(_)) => Err("an offset needs two numbers, such as @2.5,0".to_owned()),
-        (None, None) => Ok(Typed::Length(positive(text, "length")?)),
+        (None, Some(_)) => Err(t("an offset needs two numbers, such as @2.5,0").to_owned()),
+        (None, None) => Ok(Typed::Length(positive(text, t("length"))?)),
     }
 }
 
@@ -60,10 +61,10 @@ fn number(text: &str) -> Result<f64, String> {
     let value = text.trim().parse::<f64>().ok();
     let value = value.filter(|value| value.is_finite());
     value.ok_or_else(|| {
-        format!(
-            "`{}` is no number; type a length (5), a length and an angle (5<30), coordinates \
+        say!(
+            "`{text}` is no number; type a length (5), a length and an angle (5<30), coordinates \
              (12.5,3) or a radius (r2)",
-            text.trim()
+            text = text.trim()
         )
     })
 }
@@ -72,7 +73,11 @@ fn positive(text: &str, name: &str) -> Result<f64, String> {
     let value = number(text)?;
     match value > 0.0 {
         true => Ok(value),
-        false => Err(format!("the {name} is {value} m; type a number above 0")),
+        false => Err(say!(
+            "the {name} is {value} m; type a number above 0",
+            name,
+            value
+        )),
     }
 }
 

@@ -8,6 +8,7 @@ use super::tool::Tool;
 use super::tool_context::ToolContext;
 use super::tool_set::{ToolEffect, Tools};
 use super::typed_text::{Typed, TypedText, parse};
+use crate::language::t;
 
 /// The answer of the tools to a key.
 pub(crate) enum KeyAnswer {
@@ -103,7 +104,7 @@ impl Tools {
     /// The position that a text means.
     fn place_of(&self, typed: Typed, pointer_m: Option<Point<f64>>) -> Result<Point<f64>, String> {
         let last = self.points().last().copied();
-        let last = last.ok_or("this needs a first point; click one, or type x,y");
+        let last = last.ok_or(t("this needs a first point; click one, or type x,y"));
         match typed {
             Typed::Place(at_m) => Ok(at_m),
             Typed::Offset(by_m) => Ok(last? + by_m),
@@ -118,10 +119,10 @@ impl Tools {
                 let last = last?;
                 let along = pointer_m.map(|at_m| at_m - last);
                 let along = along.filter(|along| along.norm() > 0.0);
-                let along = along.ok_or("point in the direction, or type length<angle")?;
+                let along = along.ok_or(t("point in the direction, or type length<angle"))?;
                 Ok(last + along * (length_m / along.norm()))
             }
-            Typed::Radius(_) => Err("a radius needs start and end of an arc".to_owned()),
+            Typed::Radius(_) => Err(t("a radius needs start and end of an arc").to_owned()),
         }
     }
 
@@ -132,7 +133,7 @@ impl Tools {
         pointer_m: Option<Point<f64>>,
         context: &ToolContext<'_>,
     ) -> Result<Option<ToolEffect>, String> {
-        let needs_ends = || "a radius needs start and end of an arc".to_owned();
+        let needs_ends = || t("a radius needs start and end of an arc").to_owned();
         let (Tool::Arc, &[start, end]) = (self.tool, self.points()) else {
             return Err(needs_ends());
         };

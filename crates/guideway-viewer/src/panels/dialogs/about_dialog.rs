@@ -1,5 +1,6 @@
 //! The dialog about the program: version, licenses, render method, graphics adapter.
 
+use crate::language::{say, t};
 use eframe::egui::{Context, Grid, Window};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -15,18 +16,26 @@ pub(crate) struct AboutDialog {
 impl AboutDialog {
     /// Shows the dialog if it is open.
     pub(crate) fn show(&mut self, ctx: &Context, adapter: &str, method: &str) {
-        let window = Window::new("About Guideway").open(&mut self.is_open);
+        let window = Window::new(t("About Guideway")).open(&mut self.is_open);
         window.resizable(false).show(ctx, |ui| {
             ui.label(format!("Guideway {VERSION}"));
-            ui.label(format!(
-                "{LICENSES}; the fonts under the SIL Open Font and Ubuntu licenses"
+            ui.label(say!(
+                "{licenses}; the fonts under the SIL Open Font and Ubuntu licenses",
+                licenses = LICENSES
             ));
             ui.hyperlink(REPOSITORY);
             ui.separator();
             Grid::new("about").num_columns(2).show(ui, |ui| {
-                for (name, value) in [("Layouts drawn by", method), ("Window shown by", adapter)] {
+                for (name, value) in [
+                    (t("Layouts drawn by"), method),
+                    (t("Window shown by"), adapter),
+                ] {
                     ui.label(name);
-                    ui.label(if value.is_empty() { "unknown" } else { value });
+                    ui.label(if value.is_empty() {
+                        t("unknown")
+                    } else {
+                        value
+                    });
                     ui.end_row();
                 }
             });

@@ -7,6 +7,7 @@ use guideway_layout::shown_path;
 
 use crate::action::Action;
 use crate::command::Command;
+use crate::language::{say, t};
 
 /// An action that awaits a confirmation, and why it does.
 pub(crate) struct Question {
@@ -52,21 +53,24 @@ impl ConfirmDialog {
         let file = shown_path(&question.file);
         let (text, confirm, others): (_, _, &[_]) = match question.risk {
             Risk::ReplacesFile(other) => (
-                format!("{file} exists already."),
-                "Replace it",
-                &[("Choose another name", other)],
+                say!("{file} exists already.", file),
+                t("Replace it"),
+                &[(t("Choose another name"), other)],
             ),
             Risk::OverwritesChanges => (
-                format!("Another program has changed {file} since it was read here."),
-                "Overwrite its changes",
+                say!(
+                    "Another program has changed {file} since it was read here.",
+                    file
+                ),
+                t("Overwrite its changes"),
                 &[
-                    ("Save under another name", Command::SaveAs),
-                    ("Read it again", Command::Reload),
+                    (t("Save under another name"), Command::SaveAs),
+                    (t("Read it again"), Command::Reload),
                 ],
             ),
             Risk::DiscardsChanges => (
-                format!("Reading {file} again discards your unsaved changes."),
-                "Discard them",
+                say!("Reading {file} again discards your unsaved changes.", file),
+                t("Discard them"),
                 &[],
             ),
         };
@@ -82,7 +86,7 @@ impl ConfirmDialog {
                         answer = Some(Answer::Instead(command));
                     }
                 }
-                if ui.button("Cancel").clicked() {
+                if ui.button(t("Cancel")).clicked() {
                     answer = Some(Answer::Cancelled);
                 }
             });

@@ -8,6 +8,7 @@ use eframe::egui::{Context, Id, Modal};
 
 use crate::background::{BackgroundTask, RepaintHandle};
 use crate::file_purpose::{Picked, PromptKind};
+use crate::language::t;
 use crate::services::{AppServices, FileAnswer};
 
 /// A dialog that ends without a file within this time was not shown. Derived: nobody reads a dialog
@@ -74,10 +75,10 @@ impl FilePicker {
         }
         let (mut types, mut cancels) = (false, false);
         Modal::new(Id::unique("file picker")).show(ctx, |ui| {
-            ui.label("Choose a file in the dialog of your desktop.");
+            ui.label(t("Choose a file in the dialog of your desktop."));
             ui.horizontal(|ui| {
-                types = ui.button("Type its name here").clicked();
-                cancels = ui.button("Cancel").clicked();
+                types = ui.button(t("Type its name here")).clicked();
+                cancels = ui.button(t("Cancel")).clicked();
             });
         });
         let open = self.open.take_if(|_| types || cancels)?;

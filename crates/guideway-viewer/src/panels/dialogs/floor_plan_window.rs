@@ -6,6 +6,7 @@ use guideway_spline::Point;
 use crate::action::Action;
 use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanPlacement, PlanSize, PlanTask};
 use crate::command::Command;
+use crate::language::t;
 
 /// Range of the pixels per meter of an image, and of the scale of a drawing.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
@@ -22,7 +23,7 @@ pub(crate) fn show(
 ) -> Vec<Action> {
     let mut actions = Vec::new();
     let mut is_open = editor.is_open && !plan.is_empty();
-    let window = Window::new("Floor plan").open(&mut is_open);
+    let window = Window::new(t("Floor plan")).open(&mut is_open);
     window
         .resizable(false)
         .default_width(WIDTH)
@@ -65,20 +66,20 @@ fn content(
         }
     }
     ui.horizontal(|ui| {
-        ui.checkbox(&mut plan.is_visible, "Shown");
-        ui.checkbox(&mut plan.is_locked, "Locked");
+        ui.checkbox(&mut plan.is_visible, t("Shown"));
+        ui.checkbox(&mut plan.is_locked, t("Locked"));
     });
-    ui.add(Slider::new(&mut plan.opacity, 0.0..=1.0).text("Opacity"));
+    ui.add(Slider::new(&mut plan.opacity, 0.0..=1.0).text(t("Opacity")));
     ui.separator();
     ui.add_enabled_ui(!plan.is_locked, |ui| {
         tasks(ui, editor, plan, actions);
     });
     ui.separator();
     ui.horizontal(|ui| {
-        if ui.button("Another file…").clicked() {
+        if ui.button(t("Another file…")).clicked() {
             actions.push(Action::Command(Command::FloorPlan));
         }
-        if ui.button("Remove").clicked() {
+        if ui.button(t("Remove")).clicked() {
             actions.push(Action::SetFloorPlan(String::new()));
         }
     });
@@ -98,15 +99,15 @@ impl Place<'_> {
         ui.add_enabled_ui(!is_locked, |ui| {
             Grid::new("floor plan").num_columns(2).show(ui, |ui| {
                 let (label, value) = match &mut new.size {
-                    PlanSize::PxPerM(px_per_m) => ("Pixels per meter", px_per_m),
-                    PlanSize::Scale(scale) => ("Scale", scale),
+                    PlanSize::PxPerM(px_per_m) => (t("Pixels per meter"), px_per_m),
+                    PlanSize::Scale(scale) => (t("Scale"), scale),
                 };
                 let speed = 0.01 * value.abs().max(1e-3);
                 let size = DragValue::new(value).range(SIZES).speed(speed);
                 field(ui, label, size.max_decimals(6));
                 let mut rotate_deg = new.rotate_deg;
                 let turn = DragValue::new(&mut rotate_deg).suffix("°").speed(0.5);
-                if field(ui, "Rotation", turn.range(-360.0..=360.0)).changed() {
+                if field(ui, t("Rotation"), turn.range(-360.0..=360.0)).changed() {
                     let middle_m = self.middle_m.unwrap_or(new.offset_m);
                     new = new.turned_about(middle_m, rotate_deg - new.rotate_deg);
                 }
@@ -132,11 +133,11 @@ fn field(ui: &mut Ui, label: &str, value: DragValue<'_>) -> Response {
 fn tasks(ui: &mut Ui, editor: &mut PlanEditor, plan: &FloorPlanLayer, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         let is_moving = matches!(editor.task, PlanTask::Move(_));
-        if ui.selectable_label(is_moving, "Move by hand").clicked() {
+        if ui.selectable_label(is_moving, t("Move by hand")).clicked() {
             editor.toggle(PlanTask::Move(None));
         }
         let is_calibrating = matches!(editor.task, PlanTask::Calibrate(_));
-        let calibrate = ui.selectable_label(is_calibrating, "Scale by two points");
+        let calibrate = ui.selectable_label(is_calibrating, t("Scale by two points"));
         if calibrate.clicked() {
             editor.toggle(PlanTask::Calibrate(Vec::new()));
         }
@@ -144,22 +145,22 @@ fn tasks(ui: &mut Ui, editor: &mut PlanEditor, plan: &FloorPlanLayer, actions: &
     let points = match &editor.task {
         PlanTask::None => return,
         PlanTask::Move(_) => {
-            ui.label("Drag the plan; Escape ends.");
+            ui.label(t("Drag the plan; Escape ends."));
             return;
         }
         PlanTask::Calibrate(points) => points.len(),
     };
     if points < 2 {
-        ui.label("Click two points whose distance you know.");
+        ui.label(t("Click two points whose distance you know."));
         return;
     }
     ui.horizontal(|ui| {
-        let label = ui.label("Their distance");
+        let label = ui.label(t("Their distance"));
         let distance = DragValue::new(&mut editor.distance_m).suffix(" m");
         ui.add(distance.range(0.0..=MAX_M).speed(0.05).max_decimals(4))
             .labelled_by(label.id);
         let calibrated = editor.calibrated(plan);
-        let button = Button::new("Apply");
+        let button = Button::new(t("Apply"));
         if ui.add_enabled(calibrated.is_some(), button).clicked()
             && let Some(placement) = calibrated
         {

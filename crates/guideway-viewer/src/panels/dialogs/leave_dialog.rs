@@ -7,6 +7,7 @@ use guideway_layout::shown_path;
 
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
+use crate::language::t;
 
 /// The part of the window that closes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,13 +92,13 @@ impl LeaveDialog {
         }
         let mut action = None;
         let (save, discard) = match leave {
-            Leave::Window => ("Save and quit", "Quit without saving"),
-            Leave::File(_) => ("Save and close", "Close without saving"),
+            Leave::Window => (t("Save and quit"), t("Quit without saving")),
+            Leave::File(_) => (t("Save and close"), t("Close without saving")),
         };
         Modal::new(Id::unique("leave")).show(ctx, |ui| {
             ui.label(match self.is_saving {
-                true => "Saving:",
-                false => "Unsaved changes in:",
+                true => t("Saving:"),
+                false => t("Unsaved changes in:"),
             });
             for layer in &concerned {
                 ui.label(shown_path(layer.path()));
@@ -115,7 +116,7 @@ impl LeaveDialog {
                         },
                     });
                 }
-                if ui.button("Keep editing").clicked() {
+                if ui.button(t("Keep editing")).clicked() {
                     self.close();
                 }
             });

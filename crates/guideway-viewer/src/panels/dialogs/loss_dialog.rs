@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use eframe::egui::{Context, Id, Modal, ScrollArea};
-use guideway_document::text_format::counted;
 use guideway_layout::shown_path;
 
 use crate::action::Action;
 use crate::command::Command;
+use crate::language::{counted, say, t};
 use crate::services::LostPart;
 
 /// Most names of one line; the rest is counted.
@@ -40,9 +40,9 @@ impl LossDialog {
         let (mut saves, mut chooses, mut cancels) = (false, false, false);
         Modal::new(Id::unique("losses")).show(ctx, |ui| {
             ui.set_max_width(SIZE[0]);
-            ui.label(format!(
-                "The format of {} cannot hold, or holds in another form:",
-                shown_path(path)
+            ui.label(say!(
+                "The format of {file} cannot hold, or holds in another form:",
+                file = shown_path(path)
             ));
             let list = ScrollArea::vertical().max_height(SIZE[1]);
             list.show(ui, |ui| {
@@ -51,9 +51,9 @@ impl LossDialog {
                 }
             });
             ui.horizontal(|ui| {
-                saves = ui.button("Save anyway").clicked();
-                chooses = ui.button("Choose another format").clicked();
-                cancels = ui.button("Cancel").clicked();
+                saves = ui.button(t("Save anyway")).clicked();
+                chooses = ui.button(t("Choose another format")).clicked();
+                cancels = ui.button(t("Cancel")).clicked();
             });
         });
         let (path, losses) = self.save.take_if(|_| saves || chooses || cancels)?;
@@ -84,7 +84,10 @@ fn grouped(losses: &[LostPart]) -> Vec<String> {
         let more = items.len().saturating_sub(MAX_NAMES);
         items.truncate(MAX_NAMES);
         if more > 0 {
-            items.push(format!("and {}", counted(more as u64, "more column")));
+            items.push(say!(
+                "and {more}",
+                more = counted(more as u64, "more column")
+            ));
         }
         format!("• {detail}: {}", items.join(", "))
     };

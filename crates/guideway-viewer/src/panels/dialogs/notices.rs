@@ -3,6 +3,7 @@
 
 use std::time::Duration;
 
+use crate::language::t;
 use eframe::egui::{Align2, Area, Button, Context, Frame, Id, Order, Rect, Sense, Vec2};
 
 /// Longest list of notices; older ones are dropped.
@@ -90,7 +91,7 @@ impl Notices {
                         ui.set_max_width(width);
                         ui.horizontal(|ui| {
                             let button = ui.add(Button::new("×").frame(false));
-                            if button.on_hover_text("Dismiss").clicked() {
+                            if button.on_hover_text(t("Dismiss")).clicked() {
                                 dismissed = Some(index);
                             }
                             ui.add(eframe::egui::Label::new(text).wrap());

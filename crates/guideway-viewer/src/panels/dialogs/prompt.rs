@@ -8,6 +8,7 @@ use eframe::egui::{Context, DragValue, Id, Key, Modal, Modifiers, TextEdit, Ui};
 use super::path_line::{Completion, complete, path_of};
 use crate::action::Action;
 use crate::file_purpose::PromptKind;
+use crate::language::{say, t};
 use crate::services::AppServices;
 
 /// Width of an exported PNG until the user changes it, in pixels: 4K UHD.
@@ -130,7 +131,7 @@ impl OpenPrompt {
         self.show_candidates(ui);
         if self.kind == PromptKind::ExportPng {
             ui.horizontal(|ui| {
-                ui.label("Width");
+                ui.label(t("Width"));
                 let width = DragValue::new(&mut self.width_px);
                 ui.add(width.range(1..=MAX_WIDTH_PX).suffix(" px"));
             });
@@ -138,16 +139,18 @@ impl OpenPrompt {
         if self.kind == PromptKind::SaveAs {
             ui.small(formats_line(services));
         }
-        ui.small("Tab completes names of files and folders; ~ is your home folder");
+        ui.small(t(
+            "Tab completes names of files and folders; ~ is your home folder",
+        ));
         ui.horizontal(|ui| {
             let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            if ui.button("OK").clicked() || enters {
+            if ui.button(t("OK")).clicked() || enters {
                 answer = Some(Answer::Ok);
             }
-            if ui.button("Browse…").clicked() {
+            if ui.button(t("Browse…")).clicked() {
                 answer = Some(Answer::Browse);
             }
-            if ui.button("Cancel").clicked() {
+            if ui.button(t("Cancel")).clicked() {
                 answer = Some(Answer::Cancel);
             }
         });
@@ -178,16 +181,16 @@ impl OpenPrompt {
             return None;
         }
         if path.is_dir() {
-            return Some("This is a folder: add the name of a file".into());
+            return Some(t("This is a folder: add the name of a file").into());
         }
         if self.kind.opens() {
             let is_there = services.file_stamp(&path).is_some();
-            return (!is_there).then(|| "There is no such file".into());
+            return (!is_there).then(|| t("There is no such file").into());
         }
         let folder = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty())?;
-        (!folder.is_dir()).then(|| "There is no such folder".into())
+        (!folder.is_dir()).then(|| t("There is no such folder").into())
     }
 }
 
@@ -204,7 +207,10 @@ fn formats_line(services: &dyn AppServices) -> String {
         let extensions: Vec<String> = format.extensions.iter().map(|e| format!(".{e}")).collect();
         format!("{} ({})", format.name, extensions.join(", "))
     });
-    format!("Formats: {}", formats.collect::<Vec<_>>().join(", "))
+    say!(
+        "Formats: {all}",
+        all = formats.collect::<Vec<_>>().join(", ")
+    )
 }
 
 fn place_cursor_at_end(ui: &Ui, id: Id, text: &str) {

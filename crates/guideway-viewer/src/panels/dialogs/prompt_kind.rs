@@ -4,22 +4,21 @@ use std::path::{Path, PathBuf};
 
 use crate::action::{Action, Export};
 use crate::file_purpose::PromptKind;
+use crate::language::t;
 use crate::project::SUFFIX;
 use crate::services::{AppServices, FileFormat, FileQuestion};
 
 impl PromptKind {
     pub(super) fn title(self) -> &'static str {
         match self {
-            Self::Open => "Open file",
-            Self::SaveAs => "Save as (the extension selects the format)",
-            Self::ExportPng => "Export PNG file",
-            Self::ExportSvg => "Export SVG file",
-            Self::SaveProject => "Save project",
-            Self::FloorPlan => {
-                "Floor plan: an image with its scale, such as \
+            Self::Open => t("Open file"),
+            Self::SaveAs => t("Save as (the extension selects the format)"),
+            Self::ExportPng => t("Export PNG file"),
+            Self::ExportSvg => t("Export SVG file"),
+            Self::SaveProject => t("Save project"),
+            Self::FloorPlan => t("Floor plan: an image with its scale, such as \
                  hall.png@px-per-m=20,offset=-3,-2,rotate=90, a map.yaml of ROS, or any layout or \
-                 drawing. Empty removes the floor plan."
-            }
+                 drawing. Empty removes the floor plan."),
         }
     }
 
@@ -62,8 +61,8 @@ impl PromptKind {
         let name = suggestion.file_name().unwrap_or_default();
         FileQuestion {
             title: match self {
-                Self::FloorPlan => "Floor plan".to_owned(),
-                Self::SaveAs => "Save as".to_owned(),
+                Self::FloorPlan => t("Floor plan").to_owned(),
+                Self::SaveAs => t("Save as").to_owned(),
                 _ => self.title().to_owned(),
             },
             folder: folder.map(Path::to_owned),

@@ -6,6 +6,7 @@ use eframe::egui::{Button, Context, Id, Key, Modal};
 use guideway_layout::shown_path;
 
 use crate::action::Action;
+use crate::language::{say, t};
 
 /// The keys of the entries, in order.
 const DIGITS: [Key; 10] = [
@@ -47,8 +48,8 @@ impl RecentDialog {
         let mut chosen = None;
         let modal = Modal::new(Id::unique("recent")).show(ctx, |ui| {
             ui.label(match files.is_empty() {
-                true => "No recent files",
-                false => "Open recent file",
+                true => t("No recent files"),
+                false => t("Open recent file"),
             });
             for ((file, exists), digit) in files.iter().zip(DIGITS) {
                 let name = shown_path(Path::new(file.file_name().unwrap_or(file.as_os_str())));
@@ -58,12 +59,12 @@ impl RecentDialog {
                 let is_chosen = button.clicked() || ui.input(|input| input.key_pressed(digit));
                 button
                     .on_hover_text(&path)
-                    .on_disabled_hover_text(format!("{path} does not exist"));
+                    .on_disabled_hover_text(say!("{path} does not exist", path));
                 if is_chosen && *exists {
                     chosen = Some(file.clone());
                 }
             }
-            ui.button("Cancel").clicked()
+            ui.button(t("Cancel")).clicked()
         });
         if modal.inner || modal.should_close() || chosen.is_some() {
             self.files = None;

@@ -2,10 +2,9 @@
 
 use eframe::egui::{Context, Id, Modal};
 
-use guideway_document::text_format;
-
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
+use crate::language::{counted, duration, say, t};
 
 /// Width of the dialog, in points: its buttons do not move with the length of the text.
 const WIDTH: f32 = 340.0;
@@ -21,22 +20,23 @@ pub(super) fn show(ctx: &Context, files: &OpenFiles) -> Option<Action> {
     let index = undecided(files)?;
     let layer = &files.layers()[index];
     let work = layer.slot.journal().unsaved_summary()?;
-    let steps = text_format::counted(work.steps, "unsaved step");
+    let steps = counted(work.steps, "unsaved step");
     let age = work.last_written.elapsed().unwrap_or_default();
-    let text = format!(
-        "{} has {steps} from an earlier run of this window, the last one {} ago.",
-        layer.name(),
-        text_format::duration(age)
+    let text = say!(
+        "{name} has {steps} from an earlier run of this window, the last one {age} ago.",
+        name = layer.name(),
+        steps,
+        age = duration(age)
     );
     let mut action = None;
     Modal::new(Id::unique("recover")).show(ctx, |ui| {
         ui.set_width(WIDTH);
         ui.label(text);
         ui.horizontal(|ui| {
-            if ui.button("Recover").clicked() {
+            if ui.button(t("Recover")).clicked() {
                 action = Some(Action::Recover(index));
             }
-            if ui.button("Discard").clicked() {
+            if ui.button(t("Discard")).clicked() {
                 action = Some(Action::DiscardUnsavedWork(index));
             }
         });

@@ -1,9 +1,10 @@
 //! The settings that no menu has: theme, grid, file dialogs.
 
-use eframe::egui::{Checkbox, Context, DragValue, Grid, Ui, Window};
+use eframe::egui::{Checkbox, ComboBox, Context, DragValue, Grid, Ui, Window};
 
 use crate::action::Action;
 use crate::display_settings::{DisplaySettings, GRID_STEPS_M, ThemeChoice};
+use crate::language::{Language, t};
 
 /// Grid step when the user first sets one, in meters.
 const FIRST_STEP_M: f64 = 1.0;
@@ -18,14 +19,15 @@ impl SettingsDialog {
     /// Shows the dialog if it is open; changes apply at once.
     pub(crate) fn show(&mut self, ctx: &Context, settings: &mut DisplaySettings) -> Option<Action> {
         let before = settings.theme;
-        let window = Window::new("Settings").open(&mut self.is_open);
+        let window = Window::new(t("Settings")).open(&mut self.is_open);
         window.resizable(false).show(ctx, |ui| {
             Grid::new("settings").num_columns(2).show(ui, |ui| {
                 theme(ui, settings);
+                language(ui, settings);
                 grid_step(ui, settings);
-                ui.label("File names");
+                ui.label(t("File names"));
                 let asks = &mut settings.uses_desktop_dialogs;
-                ui.add(Checkbox::new(asks, "ask in the dialogs of the desktop"));
+                ui.add(Checkbox::new(asks, t("ask in the dialogs of the desktop")));
                 ui.end_row();
             });
         });
@@ -34,12 +36,12 @@ impl SettingsDialog {
 }
 
 fn theme(ui: &mut Ui, settings: &mut DisplaySettings) {
-    ui.label("Theme");
+    ui.label(t("Theme"));
     ui.horizontal(|ui| {
         for (choice, name) in [
-            (ThemeChoice::System, "as the desktop"),
-            (ThemeChoice::Light, "light"),
-            (ThemeChoice::Dark, "dark"),
+            (ThemeChoice::System, t("as the desktop")),
+            (ThemeChoice::Light, t("light")),
+            (ThemeChoice::Dark, t("dark")),
         ] {
             ui.radio_value(&mut settings.theme, choice, name);
         }
@@ -47,11 +49,27 @@ fn theme(ui: &mut Ui, settings: &mut DisplaySettings) {
     ui.end_row();
 }
 
+fn language(ui: &mut Ui, settings: &mut DisplaySettings) {
+    let label = ui.label(t("Language"));
+    let name = |language: Option<Language>| language.map_or(t("as the desktop"), Language::name);
+    ComboBox::from_id_salt("language")
+        .selected_text(name(settings.language))
+        .show_ui(ui, |ui| {
+            let each = Language::ALL.map(Some).into_iter();
+            for choice in std::iter::once(None).chain(each) {
+                ui.selectable_value(&mut settings.language, choice, name(choice));
+            }
+        })
+        .response
+        .labelled_by(label.id);
+    ui.end_row();
+}
+
 fn grid_step(ui: &mut Ui, settings: &mut DisplaySettings) {
-    ui.label("Grid lines");
+    ui.label(t("Grid lines"));
     ui.horizontal(|ui| {
         let mut is_given = settings.grid_step_m.is_some();
-        if ui.checkbox(&mut is_given, "every").clicked() {
+        if ui.checkbox(&mut is_given, t("every")).clicked() {
             settings.grid_step_m = is_given.then_some(FIRST_STEP_M);
         }
         let mut step_m = settings.grid_step_m.unwrap_or(FIRST_STEP_M);

@@ -3,6 +3,7 @@
 use eframe::egui::{Context, Grid, ScrollArea, Ui, Vec2, Window};
 
 use crate::command::{MENUS, shortcuts_of};
+use crate::language::t;
 
 /// Height at which all shortcuts show without scrolling, in points.
 const HEIGHT: f32 = 740.0;
@@ -28,7 +29,7 @@ pub(crate) struct ShortcutsWindow {
 impl ShortcutsWindow {
     pub(super) fn show(&mut self, ctx: &Context) {
         if self.is_open {
-            let window = Window::new("Keyboard shortcuts").open(&mut self.is_open);
+            let window = Window::new(t("Keyboard shortcuts")).open(&mut self.is_open);
             let screen = ctx.content_rect().size() - MARGIN;
             let window = window.default_height(HEIGHT).constrain(true);
             window.max_size(screen).show(ctx, |ui| {
@@ -55,6 +56,6 @@ fn content(ui: &mut Ui) {
     });
     ui.separator();
     for text in GESTURES {
-        ui.label(text);
+        ui.label(t(text));
     }
 }

@@ -3,6 +3,7 @@
 use eframe::egui::{Context, Id, Key, Modal, TextEdit};
 
 use crate::action::Action;
+use crate::language::t;
 use crate::selection::{TextQuestion, prompted_edit};
 
 /// The dialog; open while it has a question.
@@ -54,8 +55,8 @@ impl TextDialog {
             }
             ui.horizontal(|ui| {
                 let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-                is_answered = ui.button("OK").clicked() || enters;
-                is_cancelled = ui.button("Cancel").clicked();
+                is_answered = ui.button(t("OK")).clicked() || enters;
+                is_cancelled = ui.button(t("Cancel")).clicked();
             });
         });
         if is_cancelled || (modal.should_close() && !is_answered) {

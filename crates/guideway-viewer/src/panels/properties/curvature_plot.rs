@@ -1,5 +1,6 @@
 //! The plot of curvature over the length of a path, with axes and numbers.
 
+use crate::language::{say, t};
 use eframe::egui::{Align2, FontId, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2};
 use guideway_document::measure::Bend;
 use guideway_document::text_format;
@@ -89,17 +90,20 @@ fn curvature_text(curvature: f64, most: f64) -> String {
 fn reading(bend: &Bend) -> String {
     let along = text_format::length(bend.along_m);
     if bend.curvature.abs() <= MIN_CURVATURE {
-        return format!("at {along}: straight");
+        return say!("at {along}: straight", along);
     }
     let side = if bend.curvature > 0.0 {
-        "left"
+        t("left")
     } else {
-        "right"
+        t("right")
     };
     let radius = text_format::length(1.0 / bend.curvature.abs());
-    format!(
-        "at {along}: {:.3} /m, radius {radius} to the {side}",
-        bend.curvature
+    say!(
+        "at {along}: {curvature} /m, radius {radius} to the {side}",
+        along,
+        curvature = format!("{:.3}", bend.curvature),
+        radius,
+        side
     )
 }
 

@@ -5,6 +5,7 @@ use guideway_layout::{Direction, Layout};
 use guideway_scene::Table;
 
 use super::field::{MAX_COMPARED, types_of};
+use crate::language::t;
 
 /// Facts that selected elements have in common.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -28,7 +29,10 @@ impl Facts {
         let some: Vec<u32> = rows.iter().take(MAX_COMPARED).collect();
         let only = some.first().copied().filter(|_| rows.len() == 1);
         let path = |row: u32| layout.paths.get(row as usize);
-        let node = |node: Option<u32>| node.map_or("none", |node| layout.nodes.id(node)).to_owned();
+        let node = |node: Option<u32>| {
+            node.map_or(t("none"), |node| layout.nodes.id(node))
+                .to_owned()
+        };
         let is_path = of == Table::Paths;
         let types = |row: u32| {
             let entries = of.entries(layout)?;

@@ -25,6 +25,7 @@ use self::field::{Common, Field, MAX_COMPARED};
 use self::shown::Shown;
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
+use crate::language::{say, t};
 
 /// Width of the names beside the fields, in points.
 const NAME_WIDTH: f32 = 130.0;
@@ -67,7 +68,9 @@ impl PropertiesPanel {
                 self.shown.clear();
                 self.added.clear();
                 self.added_types.clear();
-                ui.label("Select paths, nodes or stations to see and edit their properties");
+                ui.label(t(
+                    "Select paths, nodes or stations to see and edit their properties",
+                ));
                 return;
             }
             self.update(document, files.active_index());
@@ -102,7 +105,10 @@ impl PropertiesPanel {
             curvature_plot::show(ui, &shape.bends);
         }
         if shown.rows.len() > MAX_COMPARED as u64 {
-            ui.small(format!("Values are those of the first {MAX_COMPARED}"));
+            ui.small(say!(
+                "Values are those of the first {count}",
+                count = MAX_COMPARED
+            ));
         }
         let element = shown.of.element();
         let grid = Grid::new(("properties", element)).num_columns(2);
@@ -122,30 +128,30 @@ impl PropertiesPanel {
     fn show_facts(&mut self, ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
         let facts = &shown.facts;
         if let Some(name) = &facts.name {
-            ui.label("identifier");
+            ui.label(t("identifier"));
             let value = Common::Same(name.clone());
             self.text_field(ui, shown.target(Subject::Name), &value, actions);
             ui.end_row();
         }
         if let Some([start, end]) = &facts.ends {
-            for (label, node) in [("from node", start), ("to node", end)] {
+            for (label, node) in [(t("from node"), start), (t("to node"), end)] {
                 ui.label(label);
                 ui.add(Label::new(node).truncate());
                 ui.end_row();
             }
         }
         if shown.of == Table::Paths {
-            ui.label("direction");
+            ui.label(t("direction"));
             pickers::direction(ui, shown, actions);
             ui.end_row();
         }
         if !shown.levels.is_empty() {
-            ui.label("level");
+            ui.label(t("level"));
             pickers::level(ui, shown, actions);
             ui.end_row();
         }
         if shown.of == Table::Paths {
-            ui.label("vehicle types");
+            ui.label(t("vehicle types"));
             pickers::vehicle_types(ui, shown, &mut self.new_type, actions);
             ui.end_row();
         }
@@ -171,7 +177,7 @@ impl PropertiesPanel {
                 let of_type = Some((vehicle_type, value));
                 self.value_field(ui, shown, field, of_type, actions);
                 let remove = ui.add_enabled(*value != Common::None, Button::new("×").small());
-                let remove = remove.on_hover_text("Remove the value of this vehicle type");
+                let remove = remove.on_hover_text(t("Remove the value of this vehicle type"));
                 if remove.clicked() {
                     let target = property_target(shown, field, Some(vehicle_type));
                     actions.extend(target.edit("").map(Action::Edit).ok());
@@ -213,7 +219,7 @@ impl PropertiesPanel {
                 }
             }
         });
-        let hint = "Add a value for one vehicle type";
+        let hint = t("Add a value for one vehicle type");
         menu.response.on_hover_text(hint);
     }
 
@@ -241,7 +247,7 @@ impl PropertiesPanel {
             Table::Nodes => ElementKind::Node,
             Table::Stations => ElementKind::Station,
         };
-        ui.menu_button("Add property", |ui| {
+        ui.menu_button(t("Add property"), |ui| {
             for property in PROPERTIES
                 .iter()
                 .filter(|property| property.of.contains(&kind))
@@ -266,8 +272,8 @@ impl PropertiesPanel {
     ) {
         let (before, hint) = match value {
             Common::Same(value) => (value.clone(), ""),
-            Common::None => (String::new(), "none"),
-            Common::Several => (String::new(), "several values"),
+            Common::None => (String::new(), t("none")),
+            Common::Several => (String::new(), t("several values")),
         };
         let typed = self.draft.as_ref().filter(|draft| draft.target == target);
         let mut text = typed.map_or_else(|| before.clone(), |draft| draft.text.clone());

@@ -11,6 +11,7 @@ use super::field::Common;
 use super::shown::Shown;
 use crate::action::Action;
 use crate::editing::EditTask;
+use crate::language::t;
 
 /// A choice of words; an empty one removes the property.
 pub(super) fn choice(
@@ -22,13 +23,13 @@ pub(super) fn choice(
 ) {
     let shown = match value {
         Common::Same(value) => value,
-        Common::None => "none",
-        Common::Several => "several values",
+        Common::None => t("none"),
+        Common::Several => t("several values"),
     };
     let combo = ComboBox::from_id_salt(format!("{:?}", target.subject));
     combo.selected_text(shown).show_ui(ui, |ui| {
         for word in words.iter().copied().chain([""]) {
-            let label = if word.is_empty() { "none" } else { word };
+            let label = if word.is_empty() { t("none") } else { word };
             if ui.selectable_label(shown == label, label).clicked() && shown != label {
                 match target.clone().edit(word) {
                     Ok(edit) => actions.push(Action::Edit(edit)),
@@ -41,12 +42,12 @@ pub(super) fn choice(
 
 pub(super) fn direction(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
     let name = |direction| match direction {
-        Direction::Forward => "one-way",
-        Direction::Both => "two-way",
+        Direction::Forward => t("one-way"),
+        Direction::Both => t("two-way"),
     };
     let present = shown.facts.direction;
     let combo = ComboBox::from_id_salt("direction");
-    let text = present.map_or("several values", name);
+    let text = present.map_or(t("several values"), name);
     combo.selected_text(text).show_ui(ui, |ui| {
         for direction in [Direction::Forward, Direction::Both] {
             let label = ui.selectable_label(present == Some(direction), name(direction));
@@ -58,8 +59,8 @@ pub(super) fn direction(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
             }
         }
         ui.separator();
-        let reverse = ui.button("Reverse");
-        if reverse.on_hover_text("Exchange start and end").clicked() {
+        let reverse = ui.button(t("Reverse"));
+        if reverse.on_hover_text(t("Exchange start and end")).clicked() {
             let rows = Arc::clone(&shown.rows);
             actions.push(Action::Edit(EditTask::edit(
                 move |document: &mut Document| document.reverse(&rows),
@@ -73,12 +74,12 @@ pub(super) fn level(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
         Some(level) => shown
             .levels
             .get(level as usize)
-            .map_or("unknown", |name| name),
-        None => "none",
+            .map_or(t("unknown"), |name| name),
+        None => t("none"),
     };
     let present = shown.facts.level;
     let combo = ComboBox::from_id_salt(("level", shown.of.element()));
-    let text = present.map_or("several values", name);
+    let text = present.map_or(t("several values"), name);
     combo.selected_text(text).show_ui(ui, |ui| {
         let levels = (0..shown.levels.len() as u32).map(Some).chain([None]);
         for level in levels {
@@ -102,9 +103,9 @@ pub(super) fn vehicle_types(
 ) {
     let present = shown.facts.vehicle_types.as_deref();
     let text = match present {
-        Some([]) => "all".to_owned(),
+        Some([]) => t("all").to_owned(),
         Some(types) => types.join(", "),
-        None => "several values".to_owned(),
+        None => t("several values").to_owned(),
     };
     let combo = ComboBox::from_id_salt("vehicle types")
         .selected_text(text)
@@ -119,15 +120,15 @@ pub(super) fn vehicle_types(
                 actions.push(set_types(shown, types));
             }
         }
-        if ui.button("all").clicked() {
+        if ui.button(t("all")).clicked() {
             actions.push(set_types(shown, Vec::new()));
         }
         ui.horizontal(|ui| {
-            let field = TextEdit::singleline(new_type).hint_text("new vehicle type");
+            let field = TextEdit::singleline(new_type).hint_text(t("new vehicle type"));
             ui.add(field.desired_width(120.0));
             let name = new_type.trim();
             let is_new = !name.is_empty() && !shown.facts.all_types.iter().any(|n| n == name);
-            if ui.add_enabled(is_new, Button::new("Add")).clicked() {
+            if ui.add_enabled(is_new, Button::new(t("Add"))).clicked() {
                 let types = present.unwrap_or_default().iter().cloned();
                 actions.push(set_types(shown, types.chain([name.to_owned()]).collect()));
                 new_type.clear();

@@ -5,6 +5,7 @@ use guideway_document::{PathSet, text_format};
 use guideway_layout::Layout;
 
 use crate::canvas::shape_text;
+use crate::language::say;
 
 /// Most paths whose lengths are added up: more would delay the click that selects them.
 const MAX_MEASURED: u64 = 20_000;
@@ -29,10 +30,16 @@ impl PathShape {
         }
         let text = if rows.len() > MAX_MEASURED {
             let most = text_format::count(MAX_MEASURED);
-            format!("select at most {most} paths to see the sum of their lengths")
+            say!(
+                "select at most {most} paths to see the sum of their lengths",
+                most
+            )
         } else {
             let sum_m: f64 = rows.iter().map(|row| path(row).length_m()).sum();
-            format!("{} long in total", text_format::length(sum_m))
+            say!(
+                "{length} long in total",
+                length = text_format::length(sum_m)
+            )
         };
         let bends = Vec::new();
         Self { text, bends }

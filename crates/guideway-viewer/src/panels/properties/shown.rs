@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_document::{Elements, PathSet, text_format};
+use guideway_document::{Elements, PathSet};
 use guideway_layout::{Layout, Level, Property};
 use guideway_scene::Table;
 
@@ -10,6 +10,7 @@ use super::draft::{Subject, Target};
 use super::facts::Facts;
 use super::field::{Common, Field, MAX_COMPARED, fields, kind_of_property, types_of};
 use super::shape::PathShape;
+use crate::language::counted;
 
 /// The selected elements of one table.
 pub(super) struct Shown {
@@ -82,6 +83,6 @@ impl Shown {
 
     /// Their number: `2 paths`.
     pub(super) fn heading(&self) -> String {
-        text_format::counted(self.rows.len(), self.of.element())
+        counted(self.rows.len(), self.of.element())
     }
 }

@@ -3,6 +3,7 @@
 use guideway_layout::Value;
 
 use super::field::FieldKind;
+use crate::language::{say, t};
 
 /// A value that a user entered.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,22 +43,22 @@ impl TypedValue {
             FieldKind::Text => Self::Text(text.to_owned()),
             FieldKind::Choice(words) => match words.contains(&text) {
                 true => Self::Text(text.to_owned()),
-                false => return Err(format!("choose one of {}", words.join(", "))),
+                false => return Err(say!("choose one of {words}", words = words.join(", "))),
             },
             FieldKind::Flag => match text {
                 "true" => Self::Flag(true),
                 "false" => Self::Flag(false),
-                _ => return Err("type true or false".into()),
+                _ => return Err(t("type true or false").into()),
             },
             FieldKind::Integer => match text.parse() {
                 Ok(number) => Self::Integer(number),
-                Err(_) => return Err(format!("{text} is no whole number")),
+                Err(_) => return Err(say!("{text} is no whole number", text)),
             },
             FieldKind::Number => match number(text, unit) {
                 Some(number) => Self::Number(number),
                 None => {
-                    let unit = unit.map_or(String::new(), |unit| format!(" in {unit}"));
-                    return Err(format!("{text} is no number{unit}"));
+                    let unit = unit.map_or(String::new(), |unit| say!(" in {unit}", unit));
+                    return Err(say!("{text} is no number{unit}", text, unit));
                 }
             },
             // The document checks lists and objects.

@@ -7,6 +7,7 @@ use guideway_spline::Point;
 
 use super::super::properties::{FieldKind, TypedValue, kind_of};
 use crate::editing::EditTask;
+use crate::language::{say, t};
 use crate::selection::level_names;
 
 /// The text of a cell; empty without a value. Values that differ per vehicle type are listed.
@@ -115,7 +116,7 @@ pub(super) fn edit_of(document: &Document, of: Table, cell: TypedCell) -> Result
         Column::X | Column::Y if of == Table::Nodes => {
             let number = TypedValue::parse(&text, FieldKind::Number, Some("m"))?;
             let Some(TypedValue::Number(to_m)) = number else {
-                return Err("a node needs a position in m".to_owned());
+                return Err(t("a node needs a position in m").to_owned());
             };
             let at = layout.nodes.position_m(row);
             let to = match cell.column {
@@ -126,7 +127,10 @@ pub(super) fn edit_of(document: &Document, of: Table, cell: TypedCell) -> Result
                 document.move_node(row, to)
             }))
         }
-        column => Err(format!("{} follows from the drawing", column.name())),
+        column => Err(say!(
+            "{name} follows from the drawing",
+            name = column.name()
+        )),
     }
 }
 
@@ -143,7 +147,13 @@ pub(super) fn edit_of_all(
     let mut ids: Vec<(u32, String)> = Vec::new();
     let mut values: Vec<(String, u32, Option<TypedValue>)> = Vec::new();
     for cell in cells {
-        let place = || format!("{} of {}", cell.column.name(), of.id(layout, cell.row));
+        let place = || {
+            say!(
+                "{column} of {id}",
+                column = cell.column.name(),
+                id = of.id(layout, cell.row)
+            )
+        };
         match &cell.column {
             Column::Id => ids.push((cell.row, cell.text.trim().to_owned())),
             Column::Attribute(name) => {
@@ -155,8 +165,9 @@ pub(super) fn edit_of_all(
             }
             column => {
                 let name = column.name();
-                return Err(format!(
-                    "{name} takes no pasted cells; paste names or properties"
+                return Err(say!(
+                    "{name} takes no pasted cells; paste names or properties",
+                    name
                 ));
             }
         }
@@ -187,7 +198,7 @@ fn direction_named(text: &str) -> Result<Direction, String> {
     match text {
         "one way" | "one-way" => Ok(Direction::Forward),
         "both ways" | "two-way" => Ok(Direction::Both),
-        _ => Err("choose one of one way, both ways".to_owned()),
+        _ => Err(t("choose one of one way, both ways").to_owned()),
     }
 }
 
@@ -198,7 +209,11 @@ fn level_named(layout: &Layout, text: &str) -> Result<Option<u32>, String> {
     let level = layout.level_named(text).map(Some);
     level.ok_or_else(|| {
         let names = level_names(layout).join(", ");
-        format!("no level is called {text}; choose one of {names}")
+        say!(
+            "no level is called {text}; choose one of {names}",
+            text,
+            names
+        )
     })
 }
 

@@ -9,6 +9,7 @@ use guideway_layout::Layout;
 use guideway_scene::Table;
 
 use super::cell::{CellDraft, cell_text};
+use crate::language::t;
 
 const ROW_HEIGHT: f32 = 20.0;
 const NAME_WIDTH: f32 = 170.0;
@@ -224,11 +225,11 @@ fn show_field(ui: &mut Ui, cell: Rect, draft: &mut CellDraft) -> Option<GridEven
 /// The name of a column with its unit: `maxSpeed (m/s)`.
 fn title_of(column: &Column, layout: &Layout, of: Table) -> String {
     let name = match column {
-        Column::Id => "identifier",
-        Column::Start => "from node",
-        Column::End => "to node",
-        Column::Length => "drawn length",
-        Column::VehicleType => "vehicle types",
+        Column::Id => t("identifier"),
+        Column::Start => t("from node"),
+        Column::End => t("to node"),
+        Column::Length => t("drawn length"),
+        Column::VehicleType => t("vehicle types"),
         column => column.name(),
     };
     match column.unit(layout, of) {

@@ -14,7 +14,7 @@ mod paste;
 mod rows;
 
 use eframe::egui::{Event, TextEdit, Ui};
-use guideway_document::{Column, Document, Elements, PathSet, text_format};
+use guideway_document::{Column, Document, Elements, PathSet};
 use guideway_scene::Table;
 
 use self::cell::{CellDraft, TypedCell};
@@ -24,6 +24,7 @@ use crate::action::Action;
 use crate::background::RepaintHandle;
 use crate::editing::EditTask;
 use crate::files::OpenFiles;
+use crate::language::{counted, t};
 
 /// The table view.
 pub(crate) struct TablePanel {
@@ -115,9 +116,9 @@ impl TablePanel {
         ui.horizontal(|ui| {
             let before = self.of;
             for (of, name) in [
-                (Table::Paths, "Edges"),
-                (Table::Nodes, "Nodes"),
-                (Table::Stations, "Stations"),
+                (Table::Paths, t("Edges")),
+                (Table::Nodes, t("Nodes")),
+                (Table::Stations, t("Stations")),
             ] {
                 ui.selectable_value(&mut self.of, of, name);
             }
@@ -126,7 +127,7 @@ impl TablePanel {
                 self.filter.clear();
             }
             ui.separator();
-            let label = ui.label("Filter");
+            let label = ui.label(t("Filter"));
             let field = TextEdit::singleline(&mut self.filter);
             let field = field
                 .hint_text("maxSpeed > 1 and id ~ dock")
@@ -140,7 +141,7 @@ impl TablePanel {
                     ui.colored_label(ui.visuals().error_fg_color, error);
                 }
                 (None, Some(count)) => {
-                    ui.weak(text_format::counted(count as u64, "row"));
+                    ui.weak(counted(count as u64, "row"));
                 }
                 (None, None) => {}
             }

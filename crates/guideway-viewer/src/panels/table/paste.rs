@@ -4,6 +4,7 @@ use guideway_document::{Column, PathSet};
 use guideway_scene::Table;
 
 use super::cell::{TypedCell, is_editable};
+use crate::language::say;
 
 /// Most cells of one paste.
 const MAX_CELLS: usize = 100_000;
@@ -36,10 +37,14 @@ impl Target<'_> {
         let (row, first) = self.cursor;
         let columns = self.columns.get(first..first + width).ok_or_else(|| {
             let left = self.columns.len().saturating_sub(first);
-            format!("{width} columns are pasted; the table has {left} from the clicked one on")
+            say!(
+                "{width} columns are pasted; the table has {left} from the clicked one on",
+                width,
+                left
+            )
         })?;
         if let Some(column) = columns.iter().find(|column| !is_editable(self.of, column)) {
-            return Err(format!("{} takes no pasted cells", column.name()));
+            return Err(say!("{name} takes no pasted cells", name = column.name()));
         }
         let selected: Vec<u32> = self
             .rows
@@ -56,14 +61,19 @@ impl Target<'_> {
             let below = &self.rows[from.unwrap_or(self.rows.len())..];
             let rows = below.get(..lines.len()).ok_or_else(|| {
                 let (count, left) = (lines.len(), below.len());
-                format!(
-                    "{count} lines are pasted; the table has {left} rows from the clicked one on"
+                say!(
+                    "{count} lines are pasted; the table has {left} rows from the clicked one on",
+                    count,
+                    left
                 )
             })?;
             rows.to_vec()
         };
         if rows.len().saturating_mul(width) > MAX_CELLS {
-            return Err(format!("more than {MAX_CELLS} cells; paste fewer at once"));
+            return Err(say!(
+                "more than {most} cells; paste fewer at once",
+                most = MAX_CELLS
+            ));
         }
         let line_of = |number: usize| &lines[if fills { 0 } else { number }];
         let mut cells = Vec::new();

@@ -179,6 +179,12 @@ impl AppServices for CliServices {
         self.keeps_state
     }
 
+    fn locale(&self) -> Option<String> {
+        let names = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter();
+        let mut values = names.filter_map(|name| std::env::var(name).ok());
+        values.find(|value| !value.is_empty())
+    }
+
     fn state_folder(&self) -> Option<PathBuf> {
         if !self.keeps_state {
             return None;
