@@ -72,3 +72,4 @@ pub use guideway_formats::raster::ImagePlacement;
 pub use picture::{Picture, Viewport};
 pub use png_writer::{save_png, save_png_by, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};
+pub use text::{SystemFont, system_font};

@@ -3,7 +3,9 @@
 use std::sync::{Arc, OnceLock};
 
 use eframe::CreationContext;
+use eframe::egui::epaint::text::{FallbackRequest, FontData, FontInsert};
 use eframe::egui::{Context, RawInput, RequestRepaintInfo, Ui};
+use guideway_compose::{SystemFont, system_font};
 use guideway_layout::UserError;
 
 use crate::app::{App, FIRST_PICTURE_WAIT};
@@ -35,6 +37,8 @@ pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), 
     };
     let create: eframe::AppCreator<'_> = Box::new(move |creation| {
         app.apply_theme(&creation.egui_ctx);
+        let fonts = |request: &FallbackRequest<'_>| system_font_for(request.cluster);
+        creation.egui_ctx.add_font_provider(Arc::new(fonts));
         adapt_to_adapter(&mut app, creation);
         let repaints = Repaints::start(creation);
         // eframe calls this once, so the lock is empty.
@@ -53,6 +57,16 @@ pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), 
              `guideway render` needs neither",
         )
     })
+}
+
+/// The font of the system for a letter that the fonts of the window lack: the one of pictures.
+fn system_font_for(cluster: &str) -> Option<FontInsert> {
+    let letter = cluster.chars().next()?;
+    let SystemFont { data, index } = system_font(letter)?;
+    let name = format!("system font of {letter}");
+    let mut font = FontData::from_owned(data);
+    font.index = index;
+    Some(FontInsert::new(&name, font, Vec::new()))
 }
 
 /// Removes the source file and line that winit puts before its reason: they name folders of the

@@ -54,6 +54,23 @@ pub(super) static FONTS: LazyLock<Fonts> = LazyLock::new(|| Fonts {
     ..Fonts::embedded()
 });
 
+/// A font file of the system and the position of the font in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SystemFont {
+    /// The content of the file.
+    pub data: Vec<u8>,
+    /// Position in a font collection, 0 in other files.
+    pub index: u32,
+}
+
+/// The font with which pictures show a character that no embedded font draws. `None` if the system
+/// has none.
+pub fn system_font(c: char) -> Option<SystemFont> {
+    let font = FONTS.find(c, None)?;
+    let (data, index) = (font.data.to_vec(), font.index);
+    Some(SystemFont { data, index })
+}
+
 impl Fonts {
     /// The embedded fonts alone: monospaced Hack, Ubuntu Light for more letters, and symbols.
     pub(super) fn embedded() -> Self {

@@ -13,4 +13,5 @@ mod fonts;
 mod rasterize;
 mod shape;
 
+pub use fonts::{SystemFont, system_font};
 pub(crate) use shape::ShapedLine;

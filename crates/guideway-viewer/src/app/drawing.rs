@@ -46,6 +46,8 @@ impl App {
         let stem = format!("{stem}-network");
         if let Some(drawing) = self.files.active_mut() {
             drawing.look.opacity = drawing.look.opacity.min(DRAWING_OPACITY);
+            // Those of the network lie at the same places.
+            drawing.look.has_names = false;
         }
         let files = &mut self.files;
         files.open_untitled((&stem, "lif.json"), new, method, options);

@@ -27,6 +27,6 @@ mod shape_text;
 pub(crate) use canvas_input::Canvas;
 pub(crate) use canvas_painter::CanvasPainter;
 pub(crate) use paint_findings::severity_color;
-pub(crate) use paint_network::{CUT_COLOR, JOINED_COLOR};
+pub(crate) use paint_network::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 pub(crate) use paint_tools::change_color;
 pub(crate) use shape_text::shape_text;

@@ -12,7 +12,7 @@ use crate::network_draft::Drafted;
 
 pub(crate) const JOINED_COLOR: Color32 = Color32::from_rgb(200, 120, 0);
 pub(crate) const CUT_COLOR: Color32 = Color32::from_rgb(30, 120, 255);
-const STATION_COLOR: Color32 = Color32::from_rgb(20, 150, 70);
+pub(crate) const STATION_COLOR: Color32 = Color32::from_rgb(20, 150, 70);
 const LEFT_COLOR: Color32 = Color32::from_gray(128);
 /// Half the size of a mark, in points.
 const RADIUS: f32 = 5.0;

@@ -8,6 +8,7 @@ use super::paint_draw_list::{color32, paint_text_box};
 use super::paint_gesture::HOVER_COLOR;
 use super::screen::Screen;
 use crate::display_settings::DisplaySettings;
+use crate::language::t;
 
 /// Half the size of a marker, in points.
 const RADIUS: f32 = 6.0;
@@ -29,7 +30,7 @@ pub(super) fn paint_snap(
     paint_text_box(
         painter,
         at + NAME_OFFSET,
-        target.name(),
+        t(target.name()),
         FontId::proportional(TEXT_POINTS),
         color32(settings.decoration_style(1.0).ink),
         color32(settings.background()).gamma_multiply(0.75),

@@ -160,8 +160,11 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
+    use guideway_layout::Code;
+
     use super::*;
     use crate::command::MENUS;
+    use crate::panels::title_of;
 
     #[test]
     fn texts_follow_the_language_of_the_thread() {
@@ -251,6 +254,10 @@ mod tests {
             .filter(|text| !GERMAN.contains_key(text.as_str()))
             .collect();
         assert!(missing.is_empty(), "not in german.tsv: {missing:#?}");
+        for code in Code::ALL {
+            assert!(GERMAN.contains_key(&*title_of(*code)), "{code}");
+            assert!(GERMAN.contains_key(code.meaning()), "{code}");
+        }
         for menu in &MENUS {
             assert!(GERMAN.contains_key(menu.name), "{}", menu.name);
         }

@@ -136,11 +136,11 @@ impl KindList<'_> {
             severity,
             count,
         } = self.kind;
-        let title = format!("{} ({})", title_of(code), text_format::count(count));
+        let title = format!("{} ({})", t(&title_of(code)), text_format::count(count));
         let title = RichText::new(title).color(severity_color(severity));
         let header = CollapsingHeader::new(title).id_salt((code, severity as u8));
         header.show(ui, |ui| {
-            ui.small(code.meaning());
+            ui.small(t(code.meaning()));
             let of_kind = || self.findings.iter().filter(|f| self.kind.has(f));
             if let Some(fix) = self.fix_all(of_kind()) {
                 offer(ui, &fix, actions);
@@ -193,7 +193,7 @@ impl KindList<'_> {
 
 /// Offers a fix. Returns `true` if it is clicked.
 fn offer(ui: &mut Ui, proposed: &ProposedFix, actions: &mut Vec<Action>) -> bool {
-    let is_clicked = ui.button(&proposed.label).clicked();
+    let is_clicked = ui.button(t(&proposed.label)).clicked();
     if is_clicked {
         let fix = proposed.fix.clone();
         let edit = move |document: &mut Document| document.fix(&fix);
@@ -203,7 +203,7 @@ fn offer(ui: &mut Ui, proposed: &ProposedFix, actions: &mut Vec<Action>) -> bool
 }
 
 /// The name of a code in words: `Reverse pair`.
-fn title_of(code: Code) -> String {
+pub(crate) fn title_of(code: Code) -> String {
     let words = code.name().replace('-', " ");
     let mut letters = words.chars();
     let first = letters.next().map(|first| first.to_ascii_uppercase());

@@ -30,6 +30,8 @@ pub(crate) use bottom_panel::{BottomPanel, BottomView};
 pub(crate) use command_state::CommandState;
 pub(crate) use drawing_bar::DrawingBar;
 pub(crate) use findings_panel::FindingsPanel;
+#[cfg(test)]
+pub(crate) use findings_panel::title_of;
 pub(crate) use menu_bar::{MenuBar, command_list};
 pub(crate) use new_edges::NewEdgesPanel;
 pub(crate) use properties::PropertiesPanel;

@@ -5,7 +5,7 @@ use guideway_document::text_format::{count, single_line};
 use guideway_network::{DirectionRule, DrawingSources, NoteSource};
 
 use crate::action::Action;
-use crate::canvas::{CUT_COLOR, JOINED_COLOR};
+use crate::canvas::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 use crate::files::OpenFiles;
 use crate::language::{say, t};
 use crate::network_draft::{NetworkDraft, toggle_source};
@@ -157,9 +157,9 @@ fn show_result(ui: &mut Ui, files: &OpenFiles, draft: &NetworkDraft, actions: &m
         if button.clicked() {
             actions.push(Action::MakeNetwork);
         }
-        ui.colored_label(JOINED_COLOR, t("○ joined"));
-        ui.colored_label(CUT_COLOR, t("× cut"));
-        ui.label(t("◇ station"));
+        ui.colored_label(JOINED_COLOR, t("joined"));
+        ui.colored_label(CUT_COLOR, t("cut"));
+        ui.colored_label(STATION_COLOR, t("station"));
         if draft.is_busy() {
             ui.spinner();
         }
