@@ -161,8 +161,7 @@ fn german_window_has_german_menus_panels_and_notices() {
     }
     window.key(Modifiers::COMMAND, Key::A);
     window.harness.run_steps(3);
-    let counts = "3 Wege und 6 Knoten gewählt";
-    assert!(window.harness.query_by_label(counts).is_some());
+    assert!(window.harness.query_by_label("3 Wege gewählt").is_some());
     // A notice of a background thread.
     window.key(Modifiers::NONE, Key::Delete);
     window.key(Modifiers::COMMAND, Key::S);
