@@ -1,14 +1,15 @@
-//! Writes the binary seeds, journals and Arrow files, to `fuzz/seeds`.
+//! Makes the binary seeds: journals and Arrow files.
 
+use std::collections::BTreeMap;
 use std::error::Error;
-use std::fs;
-use std::path::Path;
 use std::sync::Arc;
 
 use guideway_document::{Document, JournalEntry, PointRef, SelectMode};
 use guideway_formats::arrow::{self, Precision, WriteOptions};
 use guideway_laws::document;
 use guideway_spline::{Affine, Point};
+
+use super::Files;
 
 /// An editing session.
 type Session = fn(&mut Document) -> Result<(), Box<dyn Error>>;
@@ -52,11 +53,9 @@ const JOURNALS: [(&str, Session); 5] = [
     }),
 ];
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../seeds");
-    let (journals, arrows) = (seeds.join("journal"), seeds.join("arrow"));
-    fs::create_dir_all(&journals)?;
-    fs::create_dir_all(&arrows)?;
+/// Journals of editing sessions, and the edited layout as Arrow, by target and name.
+pub(crate) fn files() -> Result<BTreeMap<&'static str, Files>, Box<dyn Error>> {
+    let (mut journals, mut arrows) = (Files::new(), Files::new());
     let mut last = document();
     for (name, session) in JOURNALS {
         let mut document = document();
@@ -66,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .iter()
             .flat_map(JournalEntry::to_record)
             .collect::<Vec<u8>>();
-        fs::write(journals.join(name), records)?;
+        journals.insert(name.to_owned(), records);
         last = document;
     }
     let layout = Arc::new(last.to_layout());
@@ -76,7 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let mut bytes = Vec::new();
         arrow::write_layout(&layout, &mut bytes, &options)?;
-        fs::write(arrows.join(name), bytes)?;
+        arrows.insert(name.to_owned(), bytes);
     }
-    Ok(())
+    Ok([("journal", journals), ("arrow", arrows)].into())
 }
