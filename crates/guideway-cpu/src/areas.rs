@@ -132,6 +132,11 @@ struct Samples {
 
 /// Rows of samples of a band.
 const ROWS: usize = BAND_PX * SAMPLES;
+/// The rows of no contour; each edge extends it.
+const NO_ROWS: Range<usize> = Range {
+    start: ROWS,
+    end: 0,
+};
 
 impl Samples {
     fn new(width_px: usize, top_px: usize) -> Self {
@@ -143,7 +148,7 @@ impl Samples {
             bits: vec![0; words * ROWS],
             full: vec![0..0; ROWS],
             crossings: vec![Vec::new(); ROWS],
-            crossed: ROWS..0,
+            crossed: NO_ROWS,
         }
     }
 
@@ -169,7 +174,7 @@ impl Samples {
 
     /// Sets the samples between crossings, and removes these.
     fn cover_between_crossings(&mut self) {
-        for row in std::mem::replace(&mut self.crossed, ROWS..0) {
+        for row in std::mem::replace(&mut self.crossed, NO_ROWS) {
             let mut crossings = std::mem::take(&mut self.crossings[row]);
             crossings.sort_unstable_by(f64::total_cmp);
             for ends in crossings.chunks_exact(2) {
