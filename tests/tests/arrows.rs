@@ -115,6 +115,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("zune-jpeg", "guideway-formats"),
     ("fontdb", "guideway-compose"),
     ("harfrust", "guideway-compose"),
+    ("i_overlay", "guideway-compose"),
     ("skrifa", "guideway-compose"),
     ("rstar", "guideway-envelope guideway-network"),
     ("toml", "guideway guideway-network guideway-viewer"),

@@ -1,6 +1,6 @@
-//! Fills the union of convex polygons with one color: swept areas and floor plans below the paths.
+//! Fills the union of areas with one color: swept areas and floor plans below the paths.
 //!
-//! A sample counts once, however many polygons cover it: 16 x 16 samples per pixel, one bit each,
+//! A sample counts once, however many areas cover it: 16 x 16 samples per pixel, one bit each,
 //! as in the oracle. Bands of eight rows of pixels are independent, and threads share them.
 
 use std::ops::Range;
@@ -17,21 +17,33 @@ const BAND_PX: usize = 8;
 /// Samples per word.
 const WORD: usize = u64::BITS as usize;
 
-/// Convex polygons, in meters, whose union is one area.
+/// Areas, in meters, whose union is filled. Each is a list of contours: a point is inside if a ray
+/// from it crosses them an odd number of times.
 #[derive(Clone, Debug, Default)]
 pub struct Areas {
     points: Vec<Point<f64>>,
+    /// The end of each contour among the points.
+    contours: Vec<usize>,
+    /// The end of each area among the contours.
     ends: Vec<usize>,
 }
 
 impl Areas {
-    /// Adds a convex polygon; its corners in either orientation.
+    /// Adds a polygon; its corners in either orientation.
     pub fn push(&mut self, corners: &[Point<f64>]) {
-        self.points.extend_from_slice(corners);
-        self.ends.push(self.points.len());
+        self.push_outline([corners]);
     }
 
-    /// Number of polygons.
+    /// Adds an area of contours, outer ones and holes.
+    pub fn push_outline<'a>(&mut self, contours: impl IntoIterator<Item = &'a [Point<f64>]>) {
+        for corners in contours {
+            self.points.extend_from_slice(corners);
+            self.contours.push(self.points.len());
+        }
+        self.ends.push(self.contours.len());
+    }
+
+    /// Number of areas.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
@@ -41,18 +53,15 @@ impl Areas {
         self.ends.is_empty()
     }
 
-    /// The corners of each polygon.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[Point<f64>]> {
-        (0..self.len()).map(|i| self.corners(i))
-    }
-
-    fn corners(&self, polygon: usize) -> &[Point<f64>] {
-        let start = polygon.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.points[start..self.ends[polygon]]
+    /// The contours of an area.
+    fn outline(&self, area: usize) -> impl Iterator<Item = &[Point<f64>]> {
+        let start = |ends: &[usize], i: usize| i.checked_sub(1).map_or(0, |before| ends[before]);
+        let contours = start(&self.ends, area)..self.ends[area];
+        contours.map(move |i| &self.points[start(&self.contours, i)..self.contours[i]])
     }
 }
 
-/// Composites areas over a strip of a picture; overlaps of polygons are filled once.
+/// Composites areas over a strip of a picture; overlaps are filled once.
 ///
 /// # Panics
 /// If the size of `frame` is not that of the strip.
@@ -69,26 +78,31 @@ pub fn lay_areas(areas: &Areas, strip: &Strip, color: Rgba, frame: &mut Frame) {
     let rows = frame.pixels_mut().par_chunks_mut(width * BAND_PX);
     rows.enumerate()
         .zip(bands)
-        .for_each(|((band, pixels), polygons)| {
-            if polygons.is_empty() {
+        .for_each(|((band, pixels), shown)| {
+            if shown.is_empty() {
                 return;
             }
             let mut samples = Samples::new(width, top_px + band * BAND_PX);
-            for polygon in polygons {
-                let corners = areas.corners(polygon as usize).iter();
-                let corners: Vec<_> = corners.map(|&p| view.pixel_from_world(p)).collect();
-                samples.cover(&corners);
+            let mut pixel_corners = Vec::new();
+            for area in shown {
+                for corners in areas.outline(area as usize) {
+                    pixel_corners.clear();
+                    pixel_corners.extend(corners.iter().map(|&p| view.pixel_from_world(p)));
+                    samples.find_crossings(&pixel_corners);
+                }
+                samples.cover_between_crossings();
             }
             samples.composite(color, pixels);
         });
 }
 
-/// Per band, from a row of the view on, the polygons that may cover its samples.
+/// Per band, from a row of the view on, the areas that may cover its samples.
 fn bands(areas: &Areas, view: &View, top_px: usize, count: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); count];
-    for (i, corners) in areas.iter().enumerate() {
-        let rows = corners
-            .iter()
+    for i in 0..areas.len() {
+        let rows = areas
+            .outline(i)
+            .flatten()
             .map(|&p| (view.pixel_from_world(p).y - top_px as f64) / BAND_PX as f64);
         let (top, bottom) = rows.fold((f64::INFINITY, f64::NEG_INFINITY), |(top, bottom), y| {
             (top.min(y), bottom.max(y))
@@ -108,16 +122,21 @@ struct Samples {
     top_px: usize,
     words: usize,
     bits: Vec<u64>,
-    /// Per row of samples, columns that are all set: polygons of one vehicle mostly overlap.
+    /// Per row of samples, columns that are all set: areas of one vehicle mostly overlap.
     full: Vec<Range<usize>>,
-    /// Per row of samples, left and right end of a polygon.
-    ends: Vec<(f64, f64)>,
+    /// Per row of samples, where the contours of an area cross it.
+    crossings: Vec<Vec<f64>>,
+    /// The rows that contours of this area cross.
+    crossed: Range<usize>,
 }
 
 /// Rows of samples of a band.
 const ROWS: usize = BAND_PX * SAMPLES;
-/// The ends of a row that a polygon does not reach.
-const NO_ENDS: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+/// The rows of no contour; each edge extends it.
+const NO_ROWS: Range<usize> = Range {
+    start: ROWS,
+    end: 0,
+};
 
 impl Samples {
     fn new(width_px: usize, top_px: usize) -> Self {
@@ -128,43 +147,42 @@ impl Samples {
             words,
             bits: vec![0; words * ROWS],
             full: vec![0..0; ROWS],
-            ends: vec![NO_ENDS; ROWS],
+            crossings: vec![Vec::new(); ROWS],
+            crossed: NO_ROWS,
         }
     }
 
-    /// Sets the samples within a convex polygon, in pixels.
-    fn cover(&mut self, corners: &[Point<f64>]) {
-        let (top, bottom) = corners
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| {
-                (a.min(p.y), b.max(p.y))
-            });
-        let top_px = self.top_px as f64;
-        let rows = samples_between(top - top_px, bottom - top_px, ROWS);
-        self.find_ends(corners, rows.clone());
-        for row in rows {
-            let (left, right) = std::mem::replace(&mut self.ends[row], NO_ENDS);
-            let columns = samples_between(left, right, self.width_px * SAMPLES);
-            self.mark_new(row, columns);
-        }
-    }
-
-    /// Sets [`Self::ends`] of the rows of a polygon, edge by edge.
-    fn find_ends(&mut self, corners: &[Point<f64>], rows: Range<usize>) {
+    /// Adds the crossings of a contour, in pixels, edge by edge.
+    fn find_crossings(&mut self, corners: &[Point<f64>]) {
         let top_px = self.top_px as f64;
         let next = corners.iter().cycle().skip(1);
         for (a, b) in corners.iter().zip(next) {
             let of_edge = samples_between(a.y.min(b.y) - top_px, a.y.max(b.y) - top_px, ROWS);
             // The position of a row is rounded, so its neighbors are tested too.
-            let first = of_edge.start.saturating_sub(1).max(rows.start);
-            for row in first..(of_edge.end + 1).min(rows.end) {
+            let of_edge = of_edge.start.saturating_sub(1)..(of_edge.end + 1).min(ROWS);
+            for row in of_edge.clone() {
                 let y = top_px + (row as f64 + 0.5) / SAMPLES as f64;
                 if (a.y <= y) != (b.y <= y) {
                     let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-                    let (left, right) = &mut self.ends[row];
-                    (*left, *right) = (left.min(x), right.max(x));
+                    self.crossings[row].push(x);
                 }
             }
+            self.crossed.start = self.crossed.start.min(of_edge.start);
+            self.crossed.end = self.crossed.end.max(of_edge.end);
+        }
+    }
+
+    /// Sets the samples between crossings, and removes these.
+    fn cover_between_crossings(&mut self) {
+        for row in std::mem::replace(&mut self.crossed, NO_ROWS) {
+            let mut crossings = std::mem::take(&mut self.crossings[row]);
+            crossings.sort_unstable_by(f64::total_cmp);
+            for ends in crossings.chunks_exact(2) {
+                let columns = samples_between(ends[0], ends[1], self.width_px * SAMPLES);
+                self.mark_new(row, columns);
+            }
+            crossings.clear();
+            self.crossings[row] = crossings;
         }
     }
 

@@ -4,7 +4,7 @@
 //! |---------------|-----------------------------------------------------------------------|
 //! | [`Cpu`]       | renders paths fast, on all cores                                      |
 //! | [`Oracle`]    | renders paths exactly and slowly: the reference of all tests          |
-//! | [`lay_areas`] | composites the union of convex polygons, such as swept areas          |
+//! | [`lay_areas`] | composites the union of areas, such as those that vehicles sweep        |
 
 mod areas;
 mod cpu;

@@ -37,6 +37,7 @@ mod network_losses;
 mod node_rows;
 mod opendrive;
 pub mod opentcs;
+mod other_format;
 mod output;
 pub mod raster;
 mod read;

@@ -10,6 +10,7 @@ use crate::encoding::to_utf8;
 use crate::input::Input;
 #[cfg(unix)]
 use crate::input::ReadAheadFile;
+use crate::other_format::other_format;
 use crate::ros_map::is_ros_map;
 use crate::source::{ReadOptions, Source};
 use crate::unpack::unpack;
@@ -71,6 +72,10 @@ pub fn read_bytes(
     let text = to_utf8(&unpacked).map_err(|p| source.fail(p))?;
     let bytes: &[u8] = &text;
     let format = sniff(bytes);
+    // Some of them begin as a layout does.
+    if let Some(problem) = other_format(bytes) {
+        return Err(source.fail(problem));
+    }
     format.map_or(Ok(()), |format| source.check_format(format))?;
     match format {
         Some(Format::Lif) => crate::lif::read(source, bytes),
@@ -84,10 +89,7 @@ pub fn read_bytes(
         Some(Format::GeoJson) => crate::geojson::read(source, bytes),
         Some(Format::Vda5050) => crate::vda5050::read(source, bytes),
         None if is_ros_map(bytes) => Err(source.fail(Problem::FloorPlan)),
-        None => {
-            let problem = crate::arrow::other_table(bytes);
-            Err(source.fail(problem.unwrap_or_else(|| unknown_format(bytes))))
-        }
+        None => Err(source.fail(unknown_format(bytes))),
     }
 }
 

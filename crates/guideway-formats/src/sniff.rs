@@ -10,7 +10,7 @@ use crate::xml::Prolog;
 /// | `ARROW1`, or the marker `FF FF FF FF` of a stream | Arrow |
 /// | a group code and `SECTION`, or the binary sentinel | DXF |
 /// | `{` | by the first key of the root object that one format uses; else LIF |
-/// | `[`, the control character RS, or a topic of MQTT before `{` | by a key of the first object |
+/// | `[`, the control character RS, or a line with a topic of MQTT before `{` | by a key of the first object |
 /// | `<` | by the name of the root element; else openTCS |
 /// | a line that begins with `levels:` | Open-RMF |
 ///
@@ -47,7 +47,7 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
 }
 
 /// Returns the local name of the root element of an XML text; any bytes if the text is not XML.
-fn root_tag(text: &[u8]) -> &[u8] {
+pub(crate) fn root_tag(text: &[u8]) -> &[u8] {
     let Ok(Prolog { root, .. }) = Prolog::scan(text) else {
         return b"";
     };
@@ -65,7 +65,7 @@ fn root_tag(text: &[u8]) -> &[u8] {
 }
 
 /// Returns the format whose root object has this key, if it is the only one.
-fn format_of_key(key: &[u8]) -> Option<Format> {
+pub(crate) fn format_of_key(key: &[u8]) -> Option<Format> {
     match key {
         b"layouts" | b"origins" | b"metaInformation" => Some(Format::Lif),
         b"features" | b"geometry" | b"coordinates" | b"geometries" => Some(Format::GeoJson),
@@ -81,14 +81,21 @@ fn format_of_key(key: &[u8]) -> Option<Format> {
 fn first_of_several(text: &[u8]) -> Option<&[u8]> {
     let at = text.iter().position(|&byte| byte == b'{')?;
     let before = text[..at].trim_ascii();
-    let is_topic = before.contains(&b'/') && !before.iter().any(u8::is_ascii_whitespace);
+    let is_topic = is_before_payload(before);
     let is_array = matches!(before, b"[" | b"\x1E" | b"\x1E[");
     (is_array || is_topic).then_some(&text[at..])
 }
 
+/// Returns `true` if a text may stand before a message in a line of a log: it has a topic of MQTT,
+/// perhaps with a time.
+pub(crate) fn is_before_payload(text: &[u8]) -> bool {
+    let is_markup = text.starts_with(b"<");
+    text.contains(&b'/') && !text.contains(&b'\n') && !is_markup
+}
+
 /// Iterates over the keys of the root object of a JSON text, escapes unresolved; any bytes if the
 /// text is not JSON.
-fn root_keys(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+pub(crate) fn root_keys(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     let (mut at, mut depth) = (0, 0_u64);
     std::iter::from_fn(move || {
         while let Some(&byte) = text.get(at) {

@@ -13,13 +13,17 @@ pub(crate) struct LocalProjection {
 }
 
 impl LocalProjection {
-    /// Makes the projection about the center of a box of degrees.
-    pub(crate) fn centered_on(bounds: Bounds<f64>) -> Self {
-        let center = bounds.min.lerp(bounds.max, 0.5);
-        Self::about(GeoOrigin {
+    /// Makes the projection about the center of positions in degrees; `None` without any. If the
+    /// antimeridian splits them, the center is that of the shorter way around the earth.
+    pub(crate) fn centered_on<I: Iterator<Item = Point<f64>>>(
+        positions: impl Fn() -> I,
+    ) -> Option<Self> {
+        let bounds = Bounds::of_points(positions())?;
+        let center = shorter_way(bounds, positions()).center();
+        Some(Self::about(GeoOrigin {
             longitude_deg: center.x,
             latitude_deg: center.y,
-        })
+        }))
     }
 
     /// Makes the projection about a point on earth.
@@ -74,6 +78,22 @@ pub(crate) fn from_mercator(position_m: Point<f64>, eccentricity_squared: f64) -
     Point::new(longitude.to_degrees(), latitude.to_degrees())
 }
 
+/// Returns the box of positions that are split by the antimeridian around the other side of the
+/// earth, if it is narrower there.
+fn shorter_way(bounds: Bounds<f64>, positions: impl Iterator<Item = Point<f64>>) -> Bounds<f64> {
+    if bounds.size().x <= 180.0 {
+        return bounds;
+    }
+    let east = positions.map(|p| match p.x < 0.0 {
+        true => Point::new(p.x + 360.0, p.y),
+        false => p,
+    });
+    let around = Bounds::of_points(east);
+    around
+        .filter(|around| around.size().x < bounds.size().x)
+        .unwrap_or(bounds)
+}
+
 /// Returns a longitude in the range from -180 to 180.
 fn wrapped(longitude_deg: f64) -> f64 {
     if longitude_deg.abs() <= 180.0 {
@@ -119,6 +139,18 @@ mod tests {
                 "{degrees:?}"
             );
         }
+    }
+
+    #[test]
+    fn the_center_lies_between_positions_that_the_antimeridian_splits() {
+        let center = |longitudes: [f64; 2]| {
+            let positions = longitudes.map(|x| Point::new(x, -17.0));
+            let local = LocalProjection::centered_on(|| positions.into_iter()).unwrap();
+            local.origin().longitude_deg
+        };
+        assert!((center([179.999, -179.997]) + 179.999).abs() < 1e-9);
+        assert!((center([-89.0, 90.0]) - 0.5).abs() < 1e-9);
+        assert!(LocalProjection::centered_on(std::iter::empty).is_none());
     }
 
     #[test]

@@ -13,6 +13,8 @@ use crate::xml::Xml;
 pub(crate) struct XmlBuilder<'a, 'd, 't> {
     pub(crate) builder: Builder<'a>,
     pub(crate) xml: &'d Xml<'t>,
+    /// Elements are only measured, so [`Self::report`] records nothing.
+    pub(crate) is_silent: bool,
 }
 
 impl<'a, 'd, 't> XmlBuilder<'a, 'd, 't> {
@@ -20,6 +22,7 @@ impl<'a, 'd, 't> XmlBuilder<'a, 'd, 't> {
         Self {
             builder: Builder::new(source, file_bytes),
             xml,
+            is_silent: false,
         }
     }
 
@@ -32,8 +35,10 @@ impl<'a, 'd, 't> XmlBuilder<'a, 'd, 't> {
         remedy: &str,
     ) {
         let xml = self.xml;
-        self.builder
-            .report(code, &|| xml.place(node), message, remedy);
+        if !self.is_silent {
+            self.builder
+                .report(code, &|| xml.place(node), message, remedy);
+        }
     }
 
     /// Records an element that cannot be drawn, with a finding.

@@ -13,14 +13,14 @@ mod convert;
 mod journal;
 mod read;
 
-use std::fs;
 use std::io::Result;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use self::convert::convert;
 pub use self::journal::{document, journal};
 pub use self::read::read;
 use Seeds::{Bad, Stored};
+use guideway_bad_files::Archive;
 
 /// A fuzz target.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +38,7 @@ pub struct Target {
 pub enum Seeds {
     /// The bad files of a format.
     Bad(&'static str),
-    /// The files of a folder of `fuzz/seeds`.
+    /// The files of an archive of `fuzz/seeds`.
     Stored(&'static str),
 }
 
@@ -54,18 +54,18 @@ macro_rules! targets {
 }
 
 targets! {
-    arrow: read from Stored("arrow");
+    arrow: read from Bad("arrow"), Stored("arrow");
     convert: convert from Bad("dxf"), Bad("geojson"), Bad("lif"), Bad("svg"), Stored("arrow");
-    dxf: read from Bad("dxf");
-    geojson: read from Bad("geojson");
+    dxf: read from Bad("dxf"), Stored("dxf");
+    geojson: read from Bad("geojson"), Stored("geojson");
     journal: journal from Stored("journal");
-    lanelet2: read from Bad("lanelet2");
-    lif: read from Bad("lif");
-    opendrive: read from Bad("opendrive");
-    opentcs: read from Bad("opentcs");
-    rmf: read from Bad("rmf");
-    svg: read from Bad("svg");
-    vda5050: read from Bad("vda5050");
+    lanelet2: read from Bad("lanelet2"), Stored("lanelet2");
+    lif: read from Bad("lif"), Stored("lif");
+    opendrive: read from Bad("opendrive"), Stored("opendrive");
+    opentcs: read from Bad("opentcs"), Stored("opentcs");
+    rmf: read from Bad("rmf"), Stored("rmf");
+    svg: read from Bad("svg"), Stored("svg");
+    vda5050: read from Bad("vda5050"), Stored("vda5050");
 }
 
 impl Target {
@@ -85,26 +85,19 @@ impl Target {
 impl Seeds {
     /// Names and bytes, sorted by name.
     fn read(self) -> Result<Vec<(String, Vec<u8>)>> {
-        match self {
-            Bad(format) => {
-                let archive = guideway_bad_files::inputs(format)?;
-                let files = archive.iter();
-                Ok(files
-                    .map(|(name, bytes)| (format!("{format}-{name}"), bytes.to_vec()))
-                    .collect())
-            }
-            Stored(folder) => {
-                let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../seeds");
-                let mut all = Vec::new();
-                for entry in fs::read_dir(seeds.join(folder))? {
-                    let entry = entry?;
-                    let name = entry.file_name();
-                    let bytes = fs::read(entry.path())?;
-                    all.push((format!("{folder}-{}", name.display()), bytes));
-                }
-                all.sort();
-                Ok(all)
-            }
-        }
+        let (source, archive) = match self {
+            Bad(format) => (format, guideway_bad_files::inputs(format)?),
+            Stored(target) => (target, Archive::read(&archive_path(target))?),
+        };
+        let files = archive.iter();
+        Ok(files
+            .map(|(name, bytes)| (format!("{source}-{name}"), bytes.to_vec()))
+            .collect())
     }
+}
+
+/// The archive of the seeds of a target.
+pub fn archive_path(target: &str) -> PathBuf {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../seeds");
+    seeds.join(format!("{target}.txt"))
 }

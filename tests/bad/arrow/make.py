@@ -1,6 +1,7 @@
 """Makes the damaged and odd Arrow files of this folder, with pyarrow.
 
-    python3 tests/bad/arrow/make.py
+    python3 tests/bad/arrow/make.py target/arrow
+    cargo run -p guideway-bad-files -- pack arrow target/arrow
 
 What is expected of each is in expect.tsv. Most begin as a sound table of 13 rows, of which single numbers
 are then changed: 13 rows make lengths that are easy to find.
@@ -9,10 +10,11 @@ are then changed: 13 rows make lengths that are easy to find.
 import io
 import pathlib
 import struct
+import sys
 
 import pyarrow as pa
 
-HERE = pathlib.Path(__file__).parent
+FOLDER = pathlib.Path(sys.argv[1])
 ROWS = 13
 POINT = pa.list_(pa.float32(), 2)
 POLYGON = pa.list_(POINT)
@@ -334,6 +336,9 @@ def kinds_out_of_range():
     return file(table({"guideway.element": column}, VERSION_2))
 
 
+# As a dictionary they compress to next to nothing.
+SAME_IDS = pa.array(["x"] * 60_000).dictionary_encode()
+
 sound = file(table())
 FILES = {
     "magic-only.arrow": b"ARROW1\0\0",
@@ -390,7 +395,7 @@ FILES = {
     "no-version.arrow": file(table(metadata=None)),
     "refused-rows.arrow": file(table(polygons=sloppy())),
     "views-of-the-same-points.arrow": file(
-        table({"id": ["x"] * 60_000}, polygons=views(60_000, 1_200)), "zstd"
+        table({"id": SAME_IDS}, polygons=views(60_000, 1_200)), "zstd"
     ),
     "laughs.arrow": file(table({"joke": laughs(6, 40)})),
     "long-texts.arrow": file(table({"note": ["x" * (1 << 21)] * ROWS}), "zstd"),
@@ -460,6 +465,7 @@ FILES = {
     "network-kinds-beyond.arrow": kinds_out_of_range(),
 }
 
+FOLDER.mkdir(parents=True, exist_ok=True)
 for name, data in FILES.items():
-    (HERE / name).write_bytes(bytes(data))
+    (FOLDER / name).write_bytes(bytes(data))
     print(f"{len(data):8} {name}")

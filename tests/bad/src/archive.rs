@@ -6,14 +6,21 @@
 //! {"layouts": [
 //! -- no-final-newline.json (escaped) --
 //! {"layouts": [\
+//! -- magic-only.arrow (base64) --
+//! QVJST1cxAAA=
 //! ```
 //!
 //! The lines below `-- NAME --` are the bytes of the file. An entry is `(escaped)` when its file
 //! has bytes that are no plain text, a line that reads as an entry, or no newline at its end; see
-//! [`crate::escape`].
+//! [`crate::escape`]. A binary file is `(base64)`, each line on its own.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
+use std::path::Path;
+use std::{fs, io};
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 
 use crate::escape::{EscapeError, escape, is_plain, unescape};
 
@@ -21,6 +28,11 @@ use crate::escape::{EscapeError, escape, is_plain, unescape};
 const START: &str = "-- ";
 const END: &str = " --";
 const ESCAPED: &str = " (escaped)";
+const BASE64: &str = " (base64)";
+/// Bytes per line of base64: 76 columns.
+const LINE_BYTES: usize = 57;
+/// Bytes that no text has in a row, in any encoding.
+const BINARY: [u8; 4] = [0; 4];
 
 /// Named files, sorted by name, and the comment above them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,8 +58,9 @@ pub enum ArchiveError {
     },
     /// A line begins as an entry does, but is none.
     #[error(
-        "line {line}: expected `-- NAME --` or `-- NAME (escaped) --` with a name of letters, \
-         digits and `-._`; in the lines of a file, mark the entry (escaped) and write `\\x2d- `"
+        "line {line}: expected `-- NAME --`, `-- NAME (escaped) --` or `-- NAME (base64) --` with a \
+         name of letters, digits and `-._`; in the lines of a file, mark the entry (escaped) and \
+         write `\\x2d- `"
     )]
     Header {
         /// Line of the archive.
@@ -81,9 +94,31 @@ pub enum ArchiveError {
         /// Reason.
         error: EscapeError,
     },
+    /// A line of base64 has other characters, or the wrong length.
+    #[error("line {line}: `{name}`: {error}")]
+    Base64 {
+        /// Line of the archive.
+        line: usize,
+        /// Name of the file.
+        name: String,
+        /// Reason.
+        error: base64::DecodeError,
+    },
 }
 
 impl Archive {
+    /// Reads an archive from a file.
+    ///
+    /// # Errors
+    /// When it cannot be read or is malformed; the message names its path and line.
+    pub fn read(path: &Path) -> io::Result<Self> {
+        let name = |kind, error: &dyn std::error::Error| {
+            io::Error::new(kind, format!("{}: {error}", path.display()))
+        };
+        let text = fs::read_to_string(path).map_err(|e| name(e.kind(), &e))?;
+        Self::parse(&text).map_err(|e| name(io::ErrorKind::InvalidData, &e))
+    }
+
     /// Parses the text of an archive.
     ///
     /// # Errors
@@ -134,6 +169,15 @@ impl Archive {
         is_free
     }
 
+    /// An archive with the same comment and no files.
+    #[must_use]
+    pub fn emptied(&self) -> Self {
+        Self {
+            comment: self.comment.clone(),
+            files: BTreeMap::new(),
+        }
+    }
+
     /// The bytes of a file, if the archive has it.
     pub fn get(&self, name: &str) -> Option<&[u8]> {
         self.files.get(name).map(Vec::as_slice)
@@ -153,6 +197,12 @@ impl Display for Archive {
         for (name, bytes) in self.iter() {
             match str::from_utf8(bytes) {
                 Ok(text) if is_whole(text) => write!(f, "{START}{name}{END}\n{text}")?,
+                _ if bytes.windows(BINARY.len()).any(|part| part == BINARY) => {
+                    writeln!(f, "{START}{name}{BASE64}{END}")?;
+                    for line in bytes.chunks(LINE_BYTES) {
+                        writeln!(f, "{}", BASE64_STANDARD.encode(line))?;
+                    }
+                }
                 _ => write!(f, "{START}{name}{ESCAPED}{END}\n{}", escape(bytes))?,
             }
         }
@@ -175,18 +225,25 @@ fn is_name(name: &str) -> bool {
 /// The first line of an entry.
 struct Entry<'a> {
     name: &'a str,
-    is_escaped: bool,
+    encoding: Encoding,
+}
+
+#[derive(Clone, Copy)]
+enum Encoding {
+    Plain,
+    Escaped,
+    Base64,
 }
 
 impl<'a> Entry<'a> {
     fn parse(line: &'a str) -> Option<Self> {
         let middle = line.strip_suffix('\n')?.strip_prefix(START)?;
         let middle = middle.strip_suffix(END)?;
-        let (name, is_escaped) = match middle.strip_suffix(ESCAPED) {
-            Some(name) => (name, true),
-            None => (middle, false),
-        };
-        is_name(name).then_some(Self { name, is_escaped })
+        let encodings = [(ESCAPED, Encoding::Escaped), (BASE64, Encoding::Base64)];
+        let mut encoded = encodings.into_iter();
+        let encoded = encoded.find_map(|(mark, is)| Some((middle.strip_suffix(mark)?, is)));
+        let (name, encoding) = encoded.unwrap_or((middle, Encoding::Plain));
+        is_name(name).then_some(Self { name, encoding })
     }
 
     /// The bytes of a line of the entry.
@@ -195,12 +252,16 @@ impl<'a> Entry<'a> {
         if !is_plain(content) {
             return Err(ArchiveError::NotPlain { line, name: name() });
         }
-        if !self.is_escaped {
-            return Ok(content.into());
+        match self.encoding {
+            Encoding::Plain => Ok(content.into()),
+            Encoding::Escaped => unescape(content).map_err(|error| {
+                let name = name();
+                ArchiveError::Escape { line, name, error }
+            }),
+            Encoding::Base64 => BASE64_STANDARD.decode(content.trim_end()).map_err(|error| {
+                let name = name();
+                ArchiveError::Base64 { line, name, error }
+            }),
         }
-        unescape(content).map_err(|error| {
-            let name = name();
-            ArchiveError::Escape { line, name, error }
-        })
     }
 }

@@ -2,17 +2,16 @@
 //!
 //! A folder per format holds `inputs.txt`, an [`Archive`] of small files, and `expect.tsv`, the
 //! expected outcome of reading each: file name, tab, and `error` with the code of the error or `ok`
-//! with the codes of all diagnostics. Arrow files are binary and stay files.
+//! with the codes of all diagnostics.
 //!
 //! To add a file, write `-- NAME --` and its lines into `inputs.txt`, or run
 //! `cargo run -p guideway-bad-files -- add FORMAT FILE`, which escapes bytes that are no text; then
 //! add its line to `expect.tsv`. `-- unpack FORMAT FOLDER` writes the files for a look with other
-//! programs.
+//! programs, and `-- pack FORMAT FOLDER` makes the archive anew of the files of a folder.
 
 mod archive;
 mod escape;
 
-use std::fs;
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
@@ -34,12 +33,7 @@ pub fn archive_path(format: &str) -> PathBuf {
 /// # Errors
 /// When the archive cannot be read or is malformed; the message names its path and line.
 pub fn inputs(format: &str) -> Result<Archive> {
-    let path = archive_path(format);
-    let name = |kind, error: &dyn std::error::Error| {
-        Error::new(kind, format!("{}: {error}", path.display()))
-    };
-    let text = fs::read_to_string(&path).map_err(|e| name(e.kind(), &e))?;
-    Archive::parse(&text).map_err(|e| name(ErrorKind::InvalidData, &e))
+    Archive::read(&archive_path(format))
 }
 
 /// The bytes of one input file, named by format and name: `lif/valid.json`.

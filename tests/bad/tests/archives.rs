@@ -5,8 +5,9 @@
 use guideway_bad_files::{Archive, ArchiveError, inputs};
 use proptest::prelude::*;
 
-const FORMATS: [&str; 10] = [
+const FORMATS: [&str; 11] = [
     "any",
+    "arrow",
     "dxf",
     "geojson",
     "lanelet2",
@@ -32,6 +33,7 @@ fn stored_archives_print_as_they_parse() {
         let archive = inputs(format).unwrap();
         assert!(archive.iter().count() > 10, "{format}");
         assert_eq!(Archive::parse(&archive.to_string()).unwrap(), archive);
+        assert_eq!(archive.emptied().iter().count(), 0);
     }
 }
 
@@ -44,6 +46,26 @@ fn plain_files_stay_as_they_are() {
     let text = "-- a --\n-- b.json --\n{\"name\": \"Straße\\u0041\"}\n\n";
     assert_eq!(archive.to_string(), text);
     assert_eq!(Archive::parse(text), Ok(archive));
+}
+
+#[test]
+fn binary_files_are_base64() {
+    let bytes = [&[1, 2, 0, 0, 0, 0, 3][..], &[255; 60]].concat();
+    let archive = archive_of(&[("a", &bytes)]);
+    let lines = [
+        format!("AQIAAAAAA{}", "/".repeat(67)),
+        "/".repeat(13) + "w==",
+    ];
+    let text = format!("-- a (base64) --\n{}\n", lines.join("\n"));
+    assert_eq!(archive.to_string(), text);
+    assert_eq!(Archive::parse(&text), Ok(archive));
+    for line in ["AQI", "AQ I", "\\x00"] {
+        let error = Archive::parse(&format!("-- a (base64) --\n{line}\n"));
+        assert!(
+            matches!(&error, Err(ArchiveError::Base64 { line: 2, .. })),
+            "{line}: {error:?}"
+        );
+    }
 }
 
 #[test]

@@ -94,7 +94,7 @@ impl VisibleBackdrop<'_> {
             lines: lines
                 .map(|lines| PreparedOverlay::new(lines, view))
                 .collect(),
-            areas: self.areas.as_ref().map(VisibleAreas::polygons),
+            areas: self.areas.as_ref().map(VisibleAreas::outlines),
             others: others.collect::<Result<_, _>>()?,
             style: Style {
                 background: Rgba::from_u32(0),

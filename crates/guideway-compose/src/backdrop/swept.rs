@@ -1,10 +1,10 @@
-//! Swept areas: finds the convex polygons that vehicles sweep, draws and writes them.
+//! Swept areas: finds the outlines of what vehicles sweep along paths, draws and writes them.
 
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use guideway_cpu::{Areas, lay_areas};
-use guideway_envelope::{ConvexPolygon, EnvelopeSource, MIN_TOLERANCE_M, NoEnvelope};
+use guideway_envelope::{EnvelopeSource, MIN_TOLERANCE_M, NoEnvelope};
 use guideway_formats::svg::SvgWriter;
 use guideway_layout::Layout;
 use guideway_scene::{Budget, Frame, RenderError, Rgba, Scene, Strip, View};
@@ -12,7 +12,10 @@ use guideway_spline::{Bounds, Point};
 use rayon::prelude::*;
 
 use crate::ComposeError;
-use crate::vector::STEP_PX;
+
+use outline::OutlineBuilder;
+
+mod outline;
 
 /// Color of all swept areas. It is composited once where areas overlap.
 const COLOR: Rgba = Rgba {
@@ -25,8 +28,16 @@ const COLOR: Rgba = Rgba {
 /// Most that a polygon may exceed its area by, in pixels: less than anyone sees.
 const TOLERANCE_PX: f64 = 0.25;
 
-/// Most polygons of the height of the picture. Measured: as many take about a second to fill.
-const MOST_HEIGHTS: f64 = 20_000.0;
+/// Most polygons of a picture. A site of 326 paths has 24,000, a vehicle that turns on the spot along
+/// thousands of paths any number.
+const MOST_POLYGONS: u64 = 400_000;
+
+/// Bytes per corner while outlines are united. Derived: edges, their parts and events, on several
+/// threads. The number of threads does not count, lest the picture depend on it.
+const UNION_BYTES: u64 = 1024;
+
+/// Step of the coordinates of an outline in SVG, in pixels.
+const STEP_PX: f64 = 0.01;
 
 /// The areas that one vehicle sweeps along paths.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,15 +61,15 @@ pub struct SweptReport {
     pub without: [u64; NoEnvelope::ALL.len()],
     /// Paths whose area is in doubt: their orientation is probably in degrees.
     pub doubtful: u64,
-    /// Polygons in the picture.
+    /// Convex polygons, of which the outlines in the picture are united.
     pub polygons: u64,
     /// Most that a polygon exceeds its area by, in meters.
     pub tolerance_m: f64,
 }
 
-/// Swept areas in a view: per path the convex polygons that the view shows.
+/// Swept areas in a view: per path the contours of its outline, in meters.
 pub(super) struct VisibleAreas {
-    areas: Vec<Vec<ConvexPolygon>>,
+    areas: Vec<Vec<Vec<Point<f64>>>>,
     pub(super) report: SweptReport,
 }
 
@@ -74,7 +85,7 @@ pub fn draw_swept_areas(
 ) -> Result<Frame, ComposeError> {
     let mut frame = Frame::new(view.size());
     let visible = VisibleAreas::new(layout, rows, vehicle, view, &Budget::default())?;
-    draw(&visible.polygons(), &Strip::whole(view), &mut frame);
+    draw(&visible.outlines(), &Strip::whole(view), &mut frame);
     Ok(frame)
 }
 
@@ -92,8 +103,8 @@ pub(super) fn draw(areas: &Areas, strip: &Strip, frame: &mut Frame) {
 }
 
 impl VisibleAreas {
-    /// Sweeps the vehicle along paths and keeps the polygons near the view. Where they take more
-    /// than the budget, they are coarser: a vehicle that turns on the spot sweeps very many.
+    /// Sweeps the vehicle along paths and unites the polygons of each near the view. Where they take
+    /// more than the budget, they are coarser: a vehicle that turns on the spot sweeps very many.
     ///
     /// # Errors
     /// When none of the paths has a swept area, or the coarsest polygons exceed the budget.
@@ -107,8 +118,8 @@ impl VisibleAreas {
         let mut tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(MIN_TOLERANCE_M);
         let coarsest_m = f64::from(view.size().height().max(view.size().width())) / view.px_per_m();
         let by_path = loop {
-            let cost = Cost::new(view, budget);
-            let by_path = polygons_by_path(layout, rows, vehicle, (view, tolerance_m), &cost);
+            let cost = Cost::new(budget);
+            let by_path = outlines_by_path(layout, rows, vehicle, (view, tolerance_m), &cost);
             match cost.check() {
                 Ok(()) => break by_path,
                 Err(error) if tolerance_m > coarsest_m => return Err(error.into()),
@@ -127,31 +138,31 @@ impl VisibleAreas {
                 tolerance_m,
             },
         };
-        for polygons in by_path {
-            visible.add(polygons);
+        for outline in by_path {
+            visible.add(outline);
         }
         visible.report.require_any()?;
         Ok(visible)
     }
 
-    fn add(&mut self, polygons: Result<Vec<ConvexPolygon>, NoEnvelope>) {
+    fn add(&mut self, outline: Result<Outline, NoEnvelope>) {
         let report = &mut self.report;
-        match polygons {
-            Ok(polygons) if polygons.is_empty() => report.outside += 1,
-            Ok(polygons) => {
+        match outline {
+            Ok(outline) if outline.polygons == 0 => report.outside += 1,
+            Ok(outline) => {
                 report.drawn += 1;
-                report.polygons += polygons.len() as u64;
-                self.areas.push(polygons);
+                report.polygons += outline.polygons;
+                self.areas.push(outline.contours);
             }
             Err(reason) => report.without[reason as usize] += 1,
         }
     }
 
-    /// All polygons, for the rasterizer.
-    pub(super) fn polygons(&self) -> Areas {
+    /// All outlines, for the rasterizer.
+    pub(super) fn outlines(&self) -> Areas {
         let mut areas = Areas::default();
-        let polygons = self.areas.iter().flatten();
-        polygons.for_each(|polygon| areas.push(polygon.points()));
+        let contours = self.areas.iter();
+        contours.for_each(|contours| areas.push_outline(contours.iter().map(Vec::as_slice)));
         areas
     }
 
@@ -161,86 +172,102 @@ impl VisibleAreas {
         view: &View,
         page: &mut SvgWriter<'_, impl Write>,
     ) -> io::Result<()> {
-        let on_page = |polygon: &ConvexPolygon| -> Vec<Point<f64>> {
-            let corners = polygon.points().iter();
+        let on_page = |contour: &Vec<Point<f64>>| -> Vec<Point<f64>> {
+            let corners = contour.iter();
             corners.map(|&p| view.pixel_from_world(p)).collect()
         };
-        let areas = self
-            .areas
-            .iter()
-            .map(|polygons| polygons.iter().map(on_page));
+        let areas = self.areas.iter();
+        let areas = areas.map(|contours| contours.iter().map(on_page));
         page.polygon_layer("swept areas", COLOR.to_u32(), STEP_PX, areas)
     }
 }
 
-/// The polygons of each path within a view, to a tolerance in meters.
-fn polygons_by_path(
+/// The area of a path in a view: the number of its convex polygons, and their union.
+#[derive(Default)]
+struct Outline {
+    polygons: u64,
+    contours: Vec<Vec<Point<f64>>>,
+}
+
+/// The outline of each path within a view, of polygons to a tolerance in meters.
+fn outlines_by_path(
     layout: &Layout,
     rows: &[u32],
     vehicle: EnvelopeSource,
     (view, tolerance_m): (&View, f64),
     cost: &Cost,
-) -> Vec<Result<Vec<ConvexPolygon>, NoEnvelope>> {
+) -> Vec<Result<Outline, NoEnvelope>> {
     let shown = view.world_bounds();
     let of_path = |&path: &u32| {
         let sweep = vehicle.sweep(layout, path as usize)?;
-        let mut polygons = Vec::new();
-        if cost.check().is_ok() {
-            sweep.polygons(tolerance_m, Some(shown), &mut |polygon| {
-                if cost.add(polygon) {
-                    polygons.push(polygon.clone());
-                }
-            });
+        let mut outline = Outline::default();
+        if cost.check().is_err() {
+            return Ok(outline);
         }
-        Ok(polygons)
+        let mut builder = OutlineBuilder::new(view);
+        sweep.polygons(tolerance_m, Some(shown), &mut |polygon| {
+            outline.polygons += 1;
+            if cost.add_polygon(builder.most_corners()) {
+                builder.add(polygon);
+            }
+        });
+        let contours = builder.finish().into_iter();
+        let in_meters = |p: Point<f64>| view.world_from_pixel(p);
+        outline.contours = contours
+            .map(|contour| contour.into_iter().map(in_meters).collect())
+            .collect();
+        cost.add_outline(&outline.contours);
+        Ok(outline)
     };
     rows.par_iter().map(of_path).collect()
 }
 
-/// The cost of the polygons so far: bytes, and rows of pixels.
-struct Cost<'v> {
-    view: &'v View,
+/// The cost of the outlines so far: their bytes, those of the largest union, and polygons.
+struct Cost {
     bytes: AtomicU64,
-    rows_px: AtomicU64,
+    union_bytes: AtomicU64,
+    polygons: AtomicU64,
     max_bytes: u64,
-    max_rows_px: u64,
 }
 
-impl<'v> Cost<'v> {
-    fn new(view: &'v View, budget: &Budget) -> Self {
+impl Cost {
+    fn new(budget: &Budget) -> Self {
         Self {
-            view,
             bytes: AtomicU64::new(0),
-            rows_px: AtomicU64::new(0),
-            // The rasterizer has a copy.
-            max_bytes: budget.memory_bytes / 2,
-            max_rows_px: (MOST_HEIGHTS * f64::from(view.size().height())) as u64,
+            union_bytes: AtomicU64::new(0),
+            polygons: AtomicU64::new(0),
+            max_bytes: budget.memory_bytes,
         }
     }
 
-    /// Adds a polygon. Returns `false` if all polygons together cost too much.
-    fn add(&self, polygon: &ConvexPolygon) -> bool {
-        let bytes = size_of::<ConvexPolygon>() + size_of_val(polygon.points());
-        let Bounds { min, max } = polygon.bounds();
-        let [top, bottom] = [max, min].map(|corner| self.view.pixel_from_world(corner).y);
-        let height = f64::from(self.view.size().height());
-        // Casts saturate.
-        let rows_px = (bottom.min(height) - top.max(0.0)).max(0.0) as u64 + 1;
-        self.bytes.fetch_add(bytes as u64, Ordering::Relaxed);
-        self.rows_px.fetch_add(rows_px, Ordering::Relaxed);
+    /// Adds a polygon of a path of which so many corners were united at once. Returns `false` if
+    /// all together costs too much.
+    fn add_polygon(&self, most_corners: usize) -> bool {
+        let union = UNION_BYTES * most_corners as u64;
+        self.union_bytes.fetch_max(union, Ordering::Relaxed);
+        self.polygons.fetch_add(1, Ordering::Relaxed);
         self.check().is_ok()
     }
 
+    fn add_outline(&self, contours: &[Vec<Point<f64>>]) {
+        let of_contour =
+            |corners: &Vec<Point<f64>>| size_of_val(corners) + size_of_val(&corners[..]);
+        let bytes: usize = contours.iter().map(of_contour).sum();
+        // The rasterizer has a copy.
+        self.bytes.fetch_add(2 * bytes as u64, Ordering::Relaxed);
+    }
+
     fn check(&self) -> Result<(), RenderError> {
-        let bytes = self.bytes.load(Ordering::Relaxed);
-        if bytes <= self.max_bytes && self.rows_px.load(Ordering::Relaxed) <= self.max_rows_px {
+        let load = |count: &AtomicU64| count.load(Ordering::Relaxed);
+        let bytes = load(&self.bytes) + load(&self.union_bytes);
+        if bytes <= self.max_bytes && load(&self.polygons) <= MOST_POLYGONS {
             return Ok(());
         }
         Err(RenderError::Budget {
             method: "envelope",
             what: "swept areas",
-            needed_bytes: 2 * bytes,
-            budget_bytes: 2 * self.max_bytes,
+            needed_bytes: bytes,
+            budget_bytes: self.max_bytes,
         })
     }
 }

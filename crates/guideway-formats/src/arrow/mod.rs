@@ -15,7 +15,7 @@
 //! | paths | columns of paths | style and network | `path_columns`, `path_ids`, `style_columns`, `network_columns`, `written_curves` |
 //! | elements | rows of other kinds | their tables | `elements` |
 //! | read | all of these, batch by batch on several threads | layout | `read`, `reading` |
-//! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems`, `other_table` |
+//! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems` |
 //! | write | layout, or rows | file, losses | `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file`, `write_error` |
 
 mod assemble;
@@ -46,7 +46,6 @@ mod list_array;
 mod message_body;
 mod network_columns;
 mod numbering;
-mod other_table;
 mod path_columns;
 mod path_ids;
 mod point_items;
@@ -68,7 +67,6 @@ mod write_file;
 mod write_layout;
 mod written_curves;
 
-pub(crate) use self::other_table::other_table;
 pub(crate) use self::read::read;
 pub use self::write::ArrowWriter;
 pub use self::write_column::{Column, ColumnType, Precision};

@@ -33,6 +33,10 @@ impl Vector3 {
         )
     }
 
+    pub(super) fn dot(self, other: Self) -> f64 {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
     pub(super) fn norm(self) -> f64 {
         self.x.hypot(self.y).hypot(self.z)
     }
@@ -134,6 +138,27 @@ impl Affine3 {
         self.direction(p) + self.origin
     }
 
+    /// The map back; `None` if there is none, because a volume becomes flat or is not finite.
+    pub(super) fn inverse(&self) -> Option<Self> {
+        let normals = [
+            self.y.cross(self.z),
+            self.z.cross(self.x),
+            self.x.cross(self.y),
+        ];
+        let volume = self.x.dot(normals[0]);
+        if !(volume.is_finite() && volume != 0.0) {
+            return None;
+        }
+        let [a, b, c] = normals.map(|normal| normal * (1.0 / volume));
+        let back = Self {
+            x: Vector3::new(a.x, b.x, c.x),
+            y: Vector3::new(a.y, b.y, c.y),
+            z: Vector3::new(a.z, b.z, c.z),
+            origin: Vector3::ZERO,
+        };
+        Some(back.after(&Self::translation(self.origin * -1.0)))
+    }
+
     /// The map that applies `first` and then `self`.
     pub(super) fn after(&self, first: &Self) -> Self {
         Self {
@@ -171,6 +196,19 @@ mod tests {
             let along = frame.z * direction.norm() - direction;
             assert!(along.norm() < 1e-12);
         }
+    }
+
+    #[test]
+    fn inverse_maps_back() {
+        let shift = Affine3::translation(Vector3::new(3.0, -4.0, 5.0));
+        let map = Affine3::of_extrusion(Vector3::new(0.3, 0.2, -1.0))
+            .after(&Affine3::scale(2.0, -3.0, 0.5))
+            .after(&shift);
+        let p = Vector3::new(1.0, 2.0, 3.0);
+        let back = map.inverse().unwrap().point(map.point(p));
+        assert!((back - p).norm() < 1e-12, "{back:?}");
+        assert_eq!(Affine3::scale(1.0, 0.0, 1.0).inverse(), None);
+        assert_eq!(Affine3::scale(1.0, f64::NAN, 1.0).inverse(), None);
     }
 
     #[test]

@@ -4,6 +4,8 @@ use guideway_layout::{Code, NewPath, Place, Severity, TextPosition, Value, Writt
 use guideway_spline::Runs;
 
 use super::affine3::{Affine3, Vector3};
+use super::clip_region::{ClipRegion, TooMuchWork};
+use super::clips::Boundary;
 use super::drawing::Drawing;
 use super::entity::Entity;
 use super::notes::{add_block, add_mark, is_note};
@@ -25,6 +27,11 @@ const BYTES_PER_ENTITY: u64 = 16;
 /// legitimately repeat large blocks.
 const BASE_POINTS: u64 = 4 << 20;
 
+/// Comparisons of curves with the boundaries of blocks in any file, and for each of its bytes.
+/// Derived: the first take a second.
+const BASE_CLIP_WORK: u64 = 1 << 26;
+const CLIP_WORK_PER_BYTE: u64 = 256;
+
 /// Remedy for blocks that are drawn beyond their boundary.
 pub(super) const CLIP_REMEDY: &str =
     "To draw the visible part only, explode the block and trim it in the CAD program";
@@ -41,6 +48,16 @@ pub(super) struct InsertContext<'a> {
     /// The handles of all INSERTs from the outermost on, each followed by a slash.
     pub(super) handle_prefix: &'a str,
     pub(super) depth: usize,
+    /// The region outside of which nothing is drawn.
+    pub(super) region: Option<&'a ClipRegion<'a>>,
+}
+
+impl InsertContext<'_> {
+    /// Returns `true` if no boundary hides a point.
+    fn shows(&self, point: Vector3) -> bool {
+        let region = self.region;
+        region.is_none_or(|region| region.shows(self.transform.point(point).xy()))
+    }
 }
 
 /// Maps entities to the paths of a layout.
@@ -50,6 +67,8 @@ pub(super) struct EntityMapper<'a> {
     pub(super) colors: Vec<u32>,
     /// Remaining budget of entities from INSERTs.
     entities_left: u64,
+    /// Remaining budget of comparisons with boundaries.
+    clip_work_left: u64,
 }
 
 impl<'a> EntityMapper<'a> {
@@ -59,6 +78,7 @@ impl<'a> EntityMapper<'a> {
             builder,
             colors: Vec::new(),
             entities_left: BASE_ENTITIES + file_bytes as u64 / BYTES_PER_ENTITY,
+            clip_work_left: BASE_CLIP_WORK + file_bytes as u64 * CLIP_WORK_PER_BYTE,
         }
     }
 
@@ -100,7 +120,7 @@ impl<'a> EntityMapper<'a> {
         if is_note(entity.kind) {
             // Hidden and broken entities name nothing.
             return match (&entity.shape, detail) {
-                (Shape::Mark(mark), None) => {
+                (Shape::Mark(mark), None) if context.shows(mark.at) => {
                     add_mark(&mut self.builder, mark, &context.transform, &layer.name)
                 }
                 _ => Ok(()),
@@ -157,11 +177,46 @@ impl<'a> EntityMapper<'a> {
             let detail = "it has fewer than two points";
             return self.refuse(entity, context, Code::TooFewPoints, detail, at);
         }
+        let Some(region) = context.region else {
+            return self.push_path((id, &runs, written), entity, layer, color);
+        };
+        let cut = region.cut(runs.clone(), &mut self.clip_work_left);
+        let pieces = cut.unwrap_or_else(|TooMuchWork| {
+            self.report_unclipped(at, "it takes too many comparisons");
+            vec![runs.clone()]
+        });
+        match &pieces[..] {
+            [] => {
+                let detail = "it is outside of the boundary that clips its block (XCLIP)";
+                self.refuse(entity, context, Code::NotDrawn, detail, at)
+            }
+            [piece] => {
+                let written = written.filter(|_| *piece == runs);
+                self.push_path((id, piece, written), entity, layer, color)
+            }
+            pieces => {
+                for (i, piece) in pieces.iter().enumerate() {
+                    let id = format!("{id} [{}]", i + 1);
+                    self.push_path((&id, piece, None), entity, layer, color)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Appends a path.
+    fn push_path(
+        &mut self,
+        (id, runs, written): (&str, &Runs, Option<WrittenCurve>),
+        entity: &Entity<'_>,
+        layer: &Layer,
+        color: u32,
+    ) -> Result<(), ReadError> {
         self.builder.check_text(id)?;
         self.builder.check_text(&layer.name)?;
         let row = self.builder.push_path(&NewPath {
             id,
-            runs: &runs,
+            runs,
             ..NewPath::default()
         })?;
         if let Some(line) = entity.line {
@@ -244,11 +299,9 @@ impl<'a> EntityMapper<'a> {
             let detail = format!("the external drawing `{file}` is not in this file");
             return self.refuse(entity, context, Code::UnknownValue, &detail, at);
         }
-        if drawing.clips.holds(entity.handle) {
-            let message = || "a boundary clips the block (XCLIP); it is drawn whole".to_owned();
-            let (warning, code) = (Severity::Warning, Code::ApproximateShape);
-            self.builder
-                .report_as(warning, code, at, message, CLIP_REMEDY);
+        let boundary = drawing.clips.of(entity.handle);
+        if let Some(Boundary::Unknown(reason)) = boundary {
+            self.report_unclipped(at, reason);
         }
         // An outermost INSERT pays for all that it expands to, nested blocks included.
         if context.depth == 0 {
@@ -279,10 +332,18 @@ impl<'a> EntityMapper<'a> {
                     .after(&Affine3::translation(offset))
                     .after(&insert.transform)
                     .after(&Affine3::translation(Vector3::ZERO - base));
+                let region = match boundary {
+                    Some(Boundary::Corners(corners)) => {
+                        let corners = corners.iter().map(|&p| transform.point(p).xy());
+                        ClipRegion::new(corners.collect(), context.region)
+                    }
+                    _ => None,
+                };
                 let inner = InsertContext {
                     transform,
                     handle_prefix: &handle_prefix,
                     depth: context.depth + 1,
+                    region: region.as_ref().or(context.region),
                     ..*inner
                 };
                 for entity in &block.entities {
@@ -290,10 +351,21 @@ impl<'a> EntityMapper<'a> {
                 }
                 let layer = inner.layer.map_or("", |row| &drawing.layers.get(row).name);
                 let at = transform.point(base).xy();
-                add_block(&mut self.builder, &block.name, layer, at)?;
+                if context.region.is_none_or(|region| region.shows(at)) {
+                    add_block(&mut self.builder, &block.name, layer, at)?;
+                }
             }
         }
         Ok(())
+    }
+
+    /// Reports a block that is drawn beyond its boundary.
+    fn report_unclipped(&mut self, at: PlaceFn<'_>, reason: &str) {
+        let message =
+            || format!("a boundary clips the block (XCLIP), but {reason}: it is drawn whole");
+        let (warning, code) = (Severity::Warning, Code::ApproximateShape);
+        self.builder
+            .report_as(warning, code, at, message, CLIP_REMEDY);
     }
 
     /// Records an entity as refused, with a finding.

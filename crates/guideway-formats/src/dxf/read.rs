@@ -62,6 +62,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         color: 0,
         handle_prefix: "",
         depth: 0,
+        region: None,
     };
     let wanted = |kind: &[u8], code| code == 8 || known_kind(kind).is_some();
     for mut records in std::mem::take(&mut drawing.entities) {

@@ -50,9 +50,7 @@ impl Unit {
             if !corners.iter().all(|&corner| degrees(corner).is_some()) {
                 return None;
             }
-            let all = || positions().filter_map(degrees);
-            let bounds = shorter_way(Bounds::of_points(all())?, all());
-            Some(LocalProjection::centered_on(bounds))
+            LocalProjection::centered_on(|| positions().filter_map(degrees))
         };
         let far = bounds.min.x.abs().max(bounds.max.x.abs());
         let far = far.max(bounds.min.y.abs()).max(bounds.max.y.abs());
@@ -134,20 +132,4 @@ fn to_degrees(system: System, position: Point<f64>) -> Option<Point<f64>> {
         }
         System::Plane(_) | System::Unknown => None,
     }
-}
-
-/// Returns the box of positions that are split by the antimeridian around the other side of the
-/// earth, if it is narrower there.
-fn shorter_way(bounds: Bounds<f64>, positions: impl Iterator<Item = Point<f64>>) -> Bounds<f64> {
-    if bounds.size().x <= 180.0 {
-        return bounds;
-    }
-    let east = positions.map(|p| match p.x < 0.0 {
-        true => Point::new(p.x + 360.0, p.y),
-        false => p,
-    });
-    let around = Bounds::of_points(east);
-    around
-        .filter(|around| around.size().x < bounds.size().x)
-        .unwrap_or(bounds)
 }

@@ -6,11 +6,12 @@
 //! | one object per line | JSON lines, GeoJSON lines |
 //! | objects after the control character RS | RFC 7464, RFC 8142 |
 //! | an array of objects | exports of databases |
-//! | `topic {...}`, or `{"topic": ..., "payload": {...}}` | clients of MQTT |
+//! | `topic {...}` or `time topic {...}`, or `{"topic": ..., "payload": {...}}` | clients of MQTT |
 
 use std::borrow::Cow;
 
 use super::scan::{member, unescaped};
+use crate::sniff::is_before_payload;
 
 /// Record separator of RFC 7464.
 const SEPARATOR: char = '\u{1E}';
@@ -48,14 +49,12 @@ fn skip_blanks(text: &str) -> &str {
     text.trim_start_matches(|c: char| c.is_ascii_whitespace() || c == SEPARATOR)
 }
 
-/// Skips the topic before an object; `None` if no object follows.
+/// Skips what a log has before an object on its line, such as a time and a topic; `None` if no
+/// object follows.
 fn skip_topic(text: &str) -> Option<&str> {
-    if text.starts_with('{') {
-        return Some(text);
-    }
-    let (topic, rest) = text.split_once(|c: char| c.is_ascii_whitespace())?;
-    let rest = rest.trim_start();
-    (topic.contains('/') && rest.starts_with('{')).then_some(rest)
+    let start = text.find('{')?;
+    let (before, object) = text.split_at(start);
+    (before.is_empty() || is_before_payload(before.as_bytes())).then_some(object)
 }
 
 /// Returns the byte after the object at the start of a text.
@@ -112,6 +111,7 @@ mod tests {
             "[{\"a\": 1}, {\"b\": \"}\\\"{\"}]",
             "[\n{\"a\": 1}\n,\n{\"b\": \"}\\\"{\"}\n]\n",
             "a/b {\"a\": 1}\na/c {\"b\": \"}\\\"{\"}",
+            "2024-01-01 00:00 a/b {\"a\": 1}\n[17] a/c: {\"b\": \"}\\\"{\"}",
             "{\"a\": 1}{\"b\": \"}\\\"{\"}",
         ] {
             let expected = ["{\"a\": 1}", "{\"b\": \"}\\\"{\"}"];

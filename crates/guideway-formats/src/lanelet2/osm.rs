@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use guideway_layout::{Code, Place};
-use guideway_spline::{Bounds, Point};
+use guideway_spline::Point;
 use roxmltree::Node;
 
 use crate::builder::{Builder, PlaceFn};
@@ -46,10 +46,10 @@ pub(super) fn positions<'d>(
         found.push((node, local, degrees));
     }
     let is_valid = |p: &Point<f64>| p.is_finite() && is_lon_lat(*p);
-    let all_degrees = found
-        .iter()
-        .filter_map(|(_, _, degrees)| degrees.filter(is_valid));
-    let projection = Bounds::of_points(all_degrees).map(LocalProjection::centered_on);
+    let projection = LocalProjection::centered_on(|| {
+        let degrees = found.iter().map(|(_, _, degrees)| *degrees);
+        degrees.flatten().filter(is_valid)
+    });
     if is_local {
         let stated: Vec<_> = found
             .iter()

@@ -64,13 +64,19 @@ impl<'d, 't> LaneSection<'d, 't> {
     ) -> Result<Self, ReadError> {
         let start_m = reader.number(section, "s").unwrap_or_default();
         let mut lanes = Vec::new();
-        for side in ["left", "center", "right"] {
+        for (side, sign) in [("left", 1), ("center", 0), ("right", -1)] {
             for node in children(section, side).flat_map(|side| children(side, "lane")) {
                 let id = node.attribute("id").and_then(|id| id.trim().parse().ok());
                 let Some(id) = id else {
                     reader.refuse_lane(node)?;
                     continue;
                 };
+                if i64::signum(id) != sign {
+                    let message = || format!("the lane {id} stands in `{side}`");
+                    let remedy =
+                        "It is drawn on the side of its `id`; move it, or correct the `id`";
+                    reader.report(Code::Implausible, node, message, remedy);
+                }
                 let records = |reader: &mut DocumentReader<'_, 'd, 't>, tag| {
                     let records = children(node, tag);
                     read_polynomials(reader, records, "sOffset", start_m)
@@ -192,12 +198,19 @@ fn read_polynomials<'d, 't>(
     key: &'static str,
     start_m: f64,
 ) -> Piecewise {
-    let mut pieces = Vec::new();
+    let mut pieces: Vec<(f64, Cubic)> = Vec::new();
     for record in records {
         let offset = reader.number(record, key);
         let [a, b, c, d] = ["a", "b", "c", "d"].map(|key| reader.number(record, key));
         if let (Some(offset), Some(a), Some(b), Some(c), Some(d)) = (offset, a, b, c, d) {
-            pieces.push((start_m + offset, Cubic { a, b, c, d }));
+            let (start, cubic) = (start_m + offset, Cubic { a, b, c, d });
+            let before = pieces.last();
+            if before.is_some_and(|(at, other)| *at == start && *other != cubic) {
+                let message = || format!("a second record begins at {key} = {offset}");
+                let remedy = "The last one counts; remove the others";
+                reader.report(Code::Implausible, record, message, remedy);
+            }
+            pieces.push((start, cubic));
         }
     }
     Piecewise::new(pieces)

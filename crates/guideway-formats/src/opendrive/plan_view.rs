@@ -1,5 +1,7 @@
 //! Reads the plan view of a road: `geometry` elements in, segments of the reference line out.
 
+use std::f64::consts::TAU;
+
 use guideway_layout::Code;
 use guideway_spline::Point;
 use roxmltree::Node;
@@ -9,6 +11,10 @@ use super::geometry::{Geometry, Shape, parameter_at_length};
 use super::polynomial::Cubic;
 use super::reader::DocumentReader;
 use crate::xml::child;
+
+/// Headings beyond it are probably degrees, in radians. Those of the public roads are within half a
+/// turn; programs that add angles up may exceed a whole one.
+const LARGEST_HEADING: f64 = 2.0 * TAU;
 
 /// Reads a `geometry` element; `None`, with a finding, if its numbers give no curve.
 pub(super) fn read_geometry<'d, 't>(
@@ -30,6 +36,11 @@ pub(super) fn read_geometry<'d, 't>(
         let remedy = "It is left out; correct the length and `s`";
         reader.report(Code::OutOfRange, node, message, remedy);
         return None;
+    }
+    if heading.abs() > LARGEST_HEADING {
+        let message = || format!("its heading is {heading} rad");
+        let remedy = "Check whether the angles are in degrees";
+        reader.report(Code::Implausible, node, message, remedy);
     }
     let Some(shape) = read_shape(reader, node, heading, length_m) else {
         let message = || "it has no valid line, arc, spiral or polynomial".to_owned();

@@ -1,7 +1,7 @@
 //! The calls of the operating system by which a file is written.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
 /// The calls by which a file is written. [`OsDisk`] makes them; a test lets each of them fail.
@@ -15,6 +15,11 @@ pub(super) trait Disk: Send + Sync {
     /// Closes a file. Network disks and quotas report some errors only here.
     fn close(&self, file: File) -> io::Result<()>;
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
+    /// Opens a folder for [`Self::sync_folder`]; `None` where the system has no such handle, or the
+    /// user may not read the folder.
+    fn open_folder(&self, path: &Path) -> io::Result<Option<File>>;
+    /// Waits until the names in a folder are on its disk.
+    fn sync_folder(&self, folder: &File) -> io::Result<()>;
 }
 
 /// The operating system.
@@ -49,5 +54,27 @@ impl Disk for OsDisk {
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
         fs::rename(from, to)
+    }
+
+    fn open_folder(&self, path: &Path) -> io::Result<Option<File>> {
+        match cfg!(unix).then(|| File::open(path)).transpose() {
+            Err(error) if error.kind() == ErrorKind::PermissionDenied => Ok(None),
+            opened => opened,
+        }
+    }
+
+    fn sync_folder(&self, folder: &File) -> io::Result<()> {
+        match folder.sync_all() {
+            // Some network disks sync files only.
+            Err(error)
+                if matches!(
+                    error.kind(),
+                    ErrorKind::InvalidInput | ErrorKind::Unsupported
+                ) =>
+            {
+                Ok(())
+            }
+            synced => synced,
+        }
     }
 }

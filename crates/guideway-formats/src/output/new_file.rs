@@ -100,7 +100,8 @@ impl NewFile {
     /// Waits until all bytes are on the disk, then replaces the target.
     ///
     /// # Errors
-    /// When the disk fails or is full; the target is then unchanged.
+    /// When the disk fails or is full; the target is then unchanged, or, if only the new name could
+    /// not be brought to the disk, new and whole, which the error says.
     pub fn commit(mut self) -> Result<(), SaveError> {
         if let Some(failure) = self.take_failure() {
             return Err(failure);
@@ -192,9 +193,7 @@ impl Goal {
             Self::Create(part, target) => {
                 disk.sync(&file)?;
                 disk.close(file)?;
-                part.rename(disk, &target)?;
-                sync_folder(&target);
-                Ok(())
+                move_to(disk, &part, &target)
             }
             Self::Replace(mut part, old) => {
                 if metadata::has_other_names(&old) || metadata::copy(&old, &file).is_err() {
@@ -202,12 +201,10 @@ impl Goal {
                 }
                 disk.sync(&file)?;
                 disk.close(file)?;
-                match part.rename(disk, &old.path) {
-                    Ok(()) => sync_folder(&old.path),
-                    Err(error) if is_refused(&error) => overwrite(disk, old, part.file())?,
-                    Err(error) => return Err(error),
+                match move_to(disk, &part, &old.path) {
+                    Err(error) if is_refused(&error) => overwrite(disk, old, part.file()),
+                    moved => moved,
                 }
-                Ok(())
             }
             Self::Overwrite(mut part, old) => overwrite(disk, old, part.file()),
         }
@@ -225,13 +222,21 @@ fn is_refused(error: &io::Error) -> bool {
     kinds.contains(&error.kind()) || error.kind() == ErrorKind::ReadOnlyFilesystem
 }
 
-/// Waits until the new name is on the disk. After a power cut either the old or the new file is
-/// there, whole, so a disk that cannot do this is no reason to call the file unwritten.
-fn sync_folder(target: &Path) {
-    #[cfg(unix)]
-    let _ = File::open(folder(target)).and_then(|folder| folder.sync_all());
-    #[cfg(not(unix))]
-    let _ = target;
+/// Moves a whole file to its place and waits until its name is on the disk. The folder is opened
+/// before, so that a disk that fails by then leaves the old file.
+fn move_to(disk: &dyn Disk, part: &Part, target: &Path) -> io::Result<()> {
+    let folder = disk.open_folder(folder(target))?;
+    part.rename(disk, target)?;
+    let synced = folder.map_or(Ok(()), |folder| disk.sync_folder(&folder));
+    // An error, though the file is readable: a script that goes on to delete the source has to know
+    // that the file may be gone after a power cut.
+    synced.map_err(|problem| {
+        // Not of a kind that lets the caller write the file once more.
+        io::Error::other(format!(
+            "{problem}; the new file is whole and in its place, but its disk did not confirm that: \
+             after a power cut the old state may be back"
+        ))
+    })
 }
 
 /// Writes a file by `write` and replaces `path` with it: see [`NewFile`]. An error of the disk

@@ -40,7 +40,9 @@ impl SaveError {
             io::ErrorKind::InvalidData => {
                 "Correct or remove the element; a file with it could not be read back"
             }
-            _ => "Check that the folder exists and that you may write to it",
+            _ => {
+                "Check that the disk is sound, that the folder exists, and that you may write to it"
+            }
         }
     }
 }

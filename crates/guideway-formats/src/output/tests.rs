@@ -65,6 +65,16 @@ impl Disk for FaultyDisk {
         self.call("rename")?;
         OsDisk.rename(from, to)
     }
+
+    fn open_folder(&self, path: &Path) -> io::Result<Option<File>> {
+        self.call("open folder")?;
+        OsDisk.open_folder(path)
+    }
+
+    fn sync_folder(&self, folder: &File) -> io::Result<()> {
+        self.call("sync folder")?;
+        OsDisk.sync_folder(folder)
+    }
 }
 
 fn new_text() -> Vec<u8> {
@@ -116,15 +126,39 @@ fn each_failed_call_is_an_error_and_keeps_the_old_file() {
         write_on(all, &path).unwrap();
         let calls = all.calls();
         assert_eq!(fs::read(&path).unwrap(), new_text());
-        for name in ["create", "write", "sync", "close", "rename"] {
+        for name in ["create", "write", "sync", "close", "rename", "open folder"] {
             assert!(calls.contains(&name), "{name}: {calls:?}");
         }
-        for (at, call) in calls.iter().enumerate() {
+        // The last call has a test of its own.
+        for (at, call) in calls.iter().enumerate().take(calls.len() - 1) {
             fs::write(&path, "old").unwrap();
             let error = write_on(FaultyDisk::new(at, kind), &path).unwrap_err();
             assert_eq!(error.problem.kind(), kind, "{call}");
             assert_eq!(fs::read_to_string(&path).unwrap(), "old", "{call}");
             assert_eq!(names(folder.path()), ["a"], "{call}");
+        }
+    }
+}
+
+#[test]
+fn a_name_that_is_not_on_the_disk_is_an_error_though_the_file_is_new() {
+    use io::ErrorKind::{Other, PermissionDenied, ReadOnlyFilesystem};
+    for kind in [Other, PermissionDenied, ReadOnlyFilesystem] {
+        for old in [Some("old"), None] {
+            let (folder, path) = folder_with("old");
+            let all = FaultyDisk::new(usize::MAX, kind);
+            write_on(all, &path).unwrap();
+            assert_eq!(all.calls().last(), Some(&"sync folder"));
+            match old {
+                Some(text) => fs::write(&path, text).unwrap(),
+                None => fs::remove_file(&path).unwrap(),
+            }
+            let disk = FaultyDisk::new(all.calls().len() - 1, kind);
+            let error = write_on(disk, &path).unwrap_err();
+            assert!(error.to_string().contains("power cut"), "{error}");
+            assert!(error.remedy().contains("disk"), "{}", error.remedy());
+            assert_eq!(fs::read(&path).unwrap(), new_text());
+            assert_eq!(names(folder.path()), ["a"]);
         }
     }
 }

@@ -56,10 +56,9 @@ pub(super) fn frames(
         Coordinates::Image => return image_frames(builder, levels, reference),
         Coordinates::Meters => Frame::Plane(Affine::IDENTITY),
         Coordinates::Degrees => {
-            let sound = positions.copied().filter(|&p| is_lon_lat(p));
-            let bounds = Bounds::of_points(sound);
-            bounds.map_or(Frame::Plane(Affine::IDENTITY), |bounds| {
-                let projection = LocalProjection::centered_on(bounds);
+            let sound = || positions.clone().copied().filter(|&p| is_lon_lat(p));
+            let projection = LocalProjection::centered_on(sound);
+            projection.map_or(Frame::Plane(Affine::IDENTITY), |projection| {
                 builder.layout.geo_origin = Some(projection.origin());
                 Frame::Degrees(projection)
             })

@@ -9,7 +9,7 @@ use std::str::FromStr;
 use svgtypes::{Color, Paint};
 
 use super::length::{font_size_factor, is_length};
-use super::transform::{is_origin, is_transform};
+use super::transform::{is_origin, is_single_transform, is_transform};
 
 macro_rules! properties {
     ($($variant:ident $name:literal)*) => {
@@ -47,9 +47,35 @@ properties! {
     Mask "mask"
     VectorEffect "vector-effect"
     Transform "transform"
+    Translate "translate"
+    Rotate "rotate"
+    Scale "scale"
     TransformOrigin "transform-origin"
     TransformBox "transform-box"
+    X "x"
+    Y "y"
+    Width "width"
+    Height "height"
+    CenterX "cx"
+    CenterY "cy"
+    Radius "r"
+    RadiusX "rx"
+    RadiusY "ry"
 }
+
+/// Properties that state the geometry of a shape, as the attributes of their names do. SVG 2,
+/// section 7.
+const GEOMETRY: [Property; 9] = [
+    Property::X,
+    Property::Y,
+    Property::Width,
+    Property::Height,
+    Property::CenterX,
+    Property::CenterY,
+    Property::Radius,
+    Property::RadiusX,
+    Property::RadiusY,
+];
 
 /// Rank of a declaration among those of the same property.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -97,8 +123,11 @@ impl<'d> Cascade<'d> {
 
     /// Adds a declaration as an attribute.
     pub(super) fn add_attribute(&mut self, name: &str, value: &'d str) {
-        // Its grammar differs from that of the property.
-        if name != "transform" {
+        // Their grammar differs from that of the properties, or they have other meanings. Those of
+        // the geometry are read with the shape.
+        let is_other = ["transform", "translate", "rotate", "scale"].contains(&name);
+        let is_geometry = || Property::of_name(name).is_some_and(|name| GEOMETRY.contains(&name));
+        if !is_other && !is_geometry() {
             self.add(name, value, Priority::default());
         }
     }
@@ -143,6 +172,14 @@ impl<'d> Cascade<'d> {
         }
     }
 
+    /// The length that a property of the geometry has, by its name.
+    pub(super) fn geometry(&self, name: &str) -> Option<&'d str> {
+        let winners = self.winners.iter();
+        let mut geometry = winners.filter(|winner| GEOMETRY.contains(&winner.property));
+        let winner = geometry.find(|winner| Property::of_name(name) == Some(winner.property))?;
+        Some(winner.value)
+    }
+
     /// The winning value of a property.
     pub(super) fn value(&self, property: Property) -> Option<&'d str> {
         let mut winners = self.winners.iter();
@@ -176,6 +213,9 @@ fn is_valid(property: Property, value: &str) -> bool {
                 opacity(value).is_some()
             }
             Property::Transform => is_transform(value),
+            Property::Translate | Property::Rotate | Property::Scale => {
+                is_single_transform(property, value)
+            }
             Property::TransformOrigin => is_origin(value),
             Property::Display
             | Property::Visibility
@@ -183,6 +223,15 @@ fn is_valid(property: Property, value: &str) -> bool {
             | Property::Mask
             | Property::VectorEffect
             | Property::TransformBox => !value.is_empty(),
+            Property::X
+            | Property::Y
+            | Property::Width
+            | Property::Height
+            | Property::CenterX
+            | Property::CenterY
+            | Property::Radius
+            | Property::RadiusX
+            | Property::RadiusY => is_length(value),
         }
 }
 

@@ -8,7 +8,7 @@ use svgtypes::{Length, LengthUnit};
 pub(super) const DEFAULT_FONT_PX: f64 = 16.0;
 
 /// Sizes of fonts that lengths refer to, in user units.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FontSizes {
     /// Size at the element: `em`.
     pub(super) own: f64,

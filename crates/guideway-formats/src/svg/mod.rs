@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | parse | text | XML tree, style sheets | `read`, `style_sheet` |
 //! | cascade | declarations | a value per property | `cascade`, `length`, `style` |
-//! | walk | tree | shapes with transform, viewport and style | `tree_walker`, `conditions`, `page`, `repeat_budget`, `transform`, `viewport` |
+//! | walk | tree | shapes with transform, viewport and style | `tree_walker`, `conditions`, `page`, `repeat_budget`, `transform`, `element_transform`, `viewport` |
 //! | convert | shape | runs in meters | `shapes`, `path_builder` |
 //! | map | runs and style | paths, colors, widths | `shape_mapper`, `element_counts` |
 //! | write | layout | SVG elements | `write`, `svg_writer`; `xml_text` |
@@ -17,6 +17,7 @@ mod cascade;
 mod conditions;
 mod context;
 mod element_counts;
+mod element_transform;
 mod length;
 mod page;
 mod path_builder;

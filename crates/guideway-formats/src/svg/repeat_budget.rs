@@ -43,7 +43,7 @@ impl RepeatBudget {
         let end = node.attributes().next_back().map(|last| last.range().end);
         let bytes = end.map_or(0, |end| end - start) + id_prefix.len();
         let left = self.left.checked_sub(ELEMENT_COST + bytes as u64);
-        if left.is_none() && !self.is_exhaustion_reported {
+        if left.is_none() && !self.is_exhaustion_reported && !base.is_silent {
             self.is_exhaustion_reported = true;
             let message = || "references repeat too much for a file of this size".to_owned();
             let remedy = "It and all later repetitions are left out; use fewer references";
@@ -51,5 +51,10 @@ impl RepeatBudget {
         }
         self.left = left.unwrap_or(0);
         left.is_some()
+    }
+
+    /// Returns `true` if nothing is left.
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.left == 0
     }
 }

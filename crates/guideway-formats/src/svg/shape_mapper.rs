@@ -1,9 +1,10 @@
 //! Maps shapes to the paths of a layout, with color, width and group.
 
 use guideway_layout::{Code, Direction, NewPath, Value};
-use guideway_spline::Affine;
+use guideway_spline::{Affine, Bounds};
 use roxmltree::Node;
 
+use super::cascade::Cascade;
 use super::context::ElementContext;
 use super::path_builder::PathBuilder;
 use super::shapes::append_shape;
@@ -23,6 +24,8 @@ pub(super) struct ShapeMapper<'a, 'd, 't> {
     pub(super) widths_m: Vec<f32>,
     /// Number of paths with a clip path or a mask.
     pub(super) clipped: u64,
+    /// The box of the shapes so far, while an element is measured; then nothing else is collected.
+    pub(super) measured: Option<Option<Bounds<f64>>>,
 }
 
 impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
@@ -32,6 +35,7 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
             colors: Vec::new(),
             widths_m: Vec::new(),
             clipped: 0,
+            measured: None,
         }
     }
 
@@ -42,9 +46,14 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
     pub(super) fn map_shape(
         &mut self,
         node: Node<'d, 't>,
+        cascade: &Cascade<'d>,
         context: &ElementContext<'_>,
     ) -> Result<(), ReadError> {
         let style = context.style;
+        if self.measured.is_some() {
+            self.measure(node, cascade, context);
+            return Ok(());
+        }
         let painted = match (style.is_displayed, style.is_visible, style.color_rgba()) {
             (false, ..) => Err("it is not displayed"),
             (_, false, _) => Err("it is not visible"),
@@ -58,15 +67,9 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
                 return self.refuse(node, context, Code::NotDrawn, detail, remedy);
             }
         };
+        let mut path = self.path_builder(context);
+        let error = append_shape(node, cascade, context.viewport, &mut path).err();
         let builder = &mut self.base.builder;
-        let limits = &builder.source.options.limits;
-        let mut path = PathBuilder::new(
-            context.meters_from_user,
-            limits.conversion_tolerance_m,
-            limits.coordinate_m,
-            builder.points_left,
-        );
-        let error = append_shape(node, context.viewport, &mut path).err();
         let runs = &path.runs;
         let refused = if path.is_out_of_range() || !builder.within_coordinate_limit(runs) {
             Some((
@@ -116,6 +119,29 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
             }
             None => Ok(()),
         }
+    }
+
+    fn path_builder(&self, context: &ElementContext<'_>) -> PathBuilder {
+        let builder = &self.base.builder;
+        let limits = &builder.source.options.limits;
+        PathBuilder::new(
+            context.meters_from_user,
+            limits.conversion_tolerance_m,
+            limits.coordinate_m,
+            builder.points_left,
+        )
+    }
+
+    /// Adds the box of a shape. What is not displayed has none.
+    fn measure(&mut self, node: Node<'d, 't>, cascade: &Cascade<'d>, context: &ElementContext<'_>) {
+        let mut path = self.path_builder(context);
+        // A malformed shape has the box of what is drawn of it; mapping it reports the error.
+        let _ = append_shape(node, cascade, context.viewport, &mut path);
+        let is_measured = context.style.is_displayed && !path.is_out_of_range();
+        let boxes = path.runs.iter().filter_map(Bounds::of_run);
+        let shape = boxes.reduce(Bounds::union).filter(|_| is_measured);
+        let known = self.measured.flatten();
+        self.measured = Some(known.into_iter().chain(shape).reduce(Bounds::union));
     }
 
     /// The stroke width in meters: scaled by the geometric mean of both axes, unless it is

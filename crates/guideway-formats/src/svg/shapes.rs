@@ -6,6 +6,7 @@ use guideway_spline::{Affine, Point};
 use roxmltree::Node;
 use svgtypes::PointsParser;
 
+use super::cascade::Cascade;
 use super::path_builder::PathBuilder;
 use super::viewport::Viewport;
 
@@ -28,23 +29,27 @@ pub(super) enum ShapeError {
     Radius(f64),
 }
 
-/// Appends the curve of an element.
+/// Appends the curve of an element. A property of its geometry counts more than the attribute.
 ///
 /// # Errors
 /// When an attribute is invalid. The curve up to the error stays in `path`.
 pub(super) fn append_shape(
     node: Node<'_, '_>,
+    cascade: &Cascade<'_>,
     viewport: Viewport,
     path: &mut PathBuilder,
 ) -> Result<(), ShapeError> {
-    let number = |name, reference: fn(Viewport) -> f64| viewport.attribute(node, name, reference);
+    let number = |name, reference: fn(Viewport) -> f64| {
+        let text = cascade.geometry(name).or_else(|| node.attribute(name))?;
+        viewport.length(text, reference)
+    };
     let x = |name| number(name, Viewport::width).unwrap_or(0.0);
     let y = |name| number(name, Viewport::height).unwrap_or(0.0);
     match node.tag_name().name() {
         "path" => path.push_path_data(node.attribute("d").unwrap_or_default())?,
         "rect" => {
             let (width, height) = (x("width"), y("height"));
-            let [rx, ry] = radii(node, viewport);
+            let [rx, ry] = radii(number);
             if !(width > 0.0 && height > 0.0) {
                 return Err(ShapeError::RectSize { width, height });
             }
@@ -55,7 +60,7 @@ pub(super) fn append_shape(
             let r = |name| number(name, Viewport::diagonal).unwrap_or(0.0);
             let [rx, ry] = match tag {
                 "circle" => [r("r"), r("r")],
-                _ => radii(node, viewport),
+                _ => radii(number),
             };
             if !(rx > 0.0 && ry > 0.0) {
                 return Err(ShapeError::Radius(rx.min(ry)));
@@ -84,10 +89,9 @@ pub(super) fn append_shape(
 
 /// The radii of a rectangle's corner or of an ellipse: one that is missing or negative is as the
 /// other one, and both are 0 without any.
-fn radii(node: Node<'_, '_>, viewport: Viewport) -> [f64; 2] {
+fn radii(number: impl Fn(&'static str, fn(Viewport) -> f64) -> Option<f64>) -> [f64; 2] {
     let radius = |name, reference: fn(Viewport) -> f64| {
-        let radius = viewport.attribute(node, name, reference);
-        radius.filter(|&radius| radius >= 0.0)
+        number(name, reference).filter(|&radius| radius >= 0.0)
     };
     let (rx, ry) = (
         radius("rx", Viewport::width),

@@ -123,8 +123,20 @@ impl Style {
             Property::VectorEffect => self.is_stroke_fixed = value.contains("non-scaling-stroke"),
             Property::Visibility
             | Property::Transform
+            | Property::Translate
+            | Property::Rotate
+            | Property::Scale
             | Property::TransformOrigin
-            | Property::TransformBox => {}
+            | Property::TransformBox
+            | Property::X
+            | Property::Y
+            | Property::Width
+            | Property::Height
+            | Property::CenterX
+            | Property::CenterY
+            | Property::Radius
+            | Property::RadiusX
+            | Property::RadiusY => {}
         }
     }
 

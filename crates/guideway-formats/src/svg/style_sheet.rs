@@ -38,6 +38,11 @@ impl<'d> StyleSheet<'d> {
                 return;
             };
             let (head, rest) = (text[..end].trim(), &text[end + 1..]);
+            if is_screen(head) && text[end..].starts_with('{') {
+                // Its rules count as if they stood outside; its end is skipped as a lone brace.
+                text = rest;
+                continue;
+            }
             if head.starts_with('@') || text[end..].starts_with(['}', ';']) {
                 let is_block = text[end..].starts_with('{');
                 text = if is_block { after_block(rest) } else { rest };
@@ -89,6 +94,12 @@ impl<'d> StyleSheet<'d> {
         cascade.add_block(node.attribute("style").unwrap_or_default(), INLINE, 0);
         cascade
     }
+}
+
+/// Tells if a head is that of rules for every screen.
+fn is_screen(head: &str) -> bool {
+    let query = head.strip_prefix("@media").map(str::trim);
+    query.is_some_and(|query| ["", "all", "screen", "only screen"].contains(&query))
 }
 
 /// Tells if a selector is an element, a class, an element with a class, or an identifier.
@@ -157,6 +168,10 @@ mod tests {
             ("path.b{stroke:red} .c{stroke:blue}", "red"),
             (" <!-- #p{stroke:red} --> path.b{stroke:blue}", "red"),
             ("*{stroke:red!important} #p{stroke:blue}", "red"),
+            (
+                "@media screen { .b{stroke:blue} .b{stroke:red} } *{stroke:green}",
+                "red",
+            ),
             (".b{stroke:red} .b{stroke:nonsense}", "red"),
         ] {
             let (found, ignored) = strokes(sheet, "<path id='p' class='b c' stroke='white'/>");

@@ -1,14 +1,15 @@
-//! Parses transforms: the attribute `transform`, the CSS properties `transform` and
-//! `transform-origin` in, an affine map out.
+//! Parses transforms: the attribute `transform`, the CSS properties `transform`, `translate`,
+//! `rotate`, `scale` and `transform-origin` in, an affine map out.
 //!
-//! Sources: CSS Transforms 1, sections 7 and 13; SVG 2, section 8.5. Percentages refer to the
-//! viewport, whose origin is that of the user space (`transform-box: view-box`).
+//! Sources: CSS Transforms 1, sections 7 and 13; CSS Transforms 2, section 5; SVG 2, section 8.5. Percentages refer to the sizes
+//! of the viewport.
 
 use std::str::FromStr;
 
 use guideway_spline::{Affine, Point};
 use svgtypes::{Angle, AngleUnit, Transform};
 
+use super::cascade::Property;
 use super::length::{FontSizes, length};
 use super::viewport::Viewport;
 
@@ -38,6 +39,34 @@ pub(super) fn css_transform(text: &str, viewport: Viewport) -> Option<Affine> {
 /// Returns whether a text is a value of the CSS property `transform`.
 pub(super) fn is_transform(text: &str) -> bool {
     css_transform(text, Viewport::new(1.0, 1.0)).is_some()
+}
+
+/// Parses one of the CSS properties `translate`, `rotate` and `scale`; `None` if it is malformed or
+/// leaves the plane.
+pub(super) fn single_transform(
+    property: Property,
+    text: &str,
+    viewport: Viewport,
+) -> Option<Affine> {
+    let words: Vec<&str> = text.split_ascii_whitespace().collect();
+    let single = match (property, words.as_slice()) {
+        (_, ["none"]) => Affine::IDENTITY,
+        (Property::Rotate, [turn] | ["z", turn] | [turn, "z"]) => {
+            function("rotate", turn, viewport)?
+        }
+        (Property::Translate, [x]) => function("translate", x, viewport)?,
+        (Property::Translate, [x, y]) => function("translate", &format!("{x},{y}"), viewport)?,
+        (Property::Scale, [both]) => function("scale", both, viewport)?,
+        // A third factor is along the axis of sight.
+        (Property::Scale, [x, y] | [x, y, _]) => function("scale", &format!("{x},{y}"), viewport)?,
+        _ => return None,
+    };
+    single.is_finite().then_some(single)
+}
+
+/// Returns whether a text is a value of such a property.
+pub(super) fn is_single_transform(property: Property, text: &str) -> bool {
+    single_transform(property, text, Viewport::new(1.0, 1.0)).is_some()
 }
 
 /// A transform about an origin.

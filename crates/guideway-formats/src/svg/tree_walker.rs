@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 
 use guideway_layout::{Code, Layout};
-use guideway_spline::{Affine, Point};
+use guideway_spline::{Affine, Bounds, Point};
 use roxmltree::{Node, NodeId};
 use svgtypes::ViewBox;
 
-use super::cascade::{Cascade, Property};
+use super::cascade::Cascade;
 use super::conditions::{choice, is_met};
 use super::context::ElementContext;
 use super::element_counts::{element_counts, report_ignored};
@@ -18,7 +18,6 @@ use super::shape_mapper::ShapeMapper;
 use super::shapes::SHAPES;
 use super::style::{PAINT_SERVERS, PaintServers, Style};
 use super::style_sheet::StyleSheet;
-use super::transform::{about, attribute_transform, css_transform, transform_origin};
 use super::viewport::{METERS_PER_PX, Viewport, view_box, view_box_transform};
 use crate::ReadError;
 use crate::source::Source;
@@ -29,14 +28,16 @@ const XLINK: &str = "http://www.w3.org/1999/xlink";
 
 /// Walks a document.
 pub(super) struct TreeWalker<'a, 'd, 't> {
-    mapper: ShapeMapper<'a, 'd, 't>,
+    pub(super) mapper: ShapeMapper<'a, 'd, 't>,
     sheet: &'d StyleSheet<'d>,
     /// The first element per `id`.
     ids: HashMap<&'d str, Node<'d, 't>>,
     paint_servers: PaintServers<'d>,
     /// Targets of the references around the current element.
     targets: Vec<NodeId>,
-    budget: RepeatBudget,
+    pub(super) budget: RepeatBudget,
+    /// Measured elements: the viewport, and the box of their shapes in their user space.
+    pub(super) boxes: HashMap<NodeId, (Viewport, Option<Bounds<f64>>)>,
 }
 
 impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
@@ -53,6 +54,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             paint_servers: PaintServers::new(),
             targets: Vec::new(),
             budget: RepeatBudget::new(file_bytes),
+            boxes: HashMap::new(),
         }
     }
 
@@ -123,6 +125,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             colors,
             widths_m,
             clipped,
+            measured: _,
         } = self.mapper;
         let mut builder = base.builder;
         report_ignored(&mut builder, root, clipped, self.sheet.ignored_selectors);
@@ -172,24 +175,41 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             .of_child(&cascade, context.viewport, &self.paint_servers);
         style.is_displayed &= is_met(node);
         let viewport = context.viewport.with_font_size(style.font_size);
-        let transform = self.transform(node, &cascade, viewport);
         let inner = ElementContext {
-            meters_from_user: transform.then(context.meters_from_user),
             viewport,
             style,
             depth: context.depth + 1,
             ..*context
         };
-        match tag {
+        let transform = self.transform(node, &cascade, &inner)?;
+        let meters_from_user = transform.then(context.meters_from_user);
+        self.content(
+            node,
+            &cascade,
+            &ElementContext {
+                meters_from_user,
+                ..inner
+            },
+        )
+    }
+
+    /// Walks what an element shows, in its user space.
+    pub(super) fn content(
+        &mut self,
+        node: Node<'d, 't>,
+        cascade: &Cascade<'d>,
+        context: &ElementContext<'_>,
+    ) -> Result<(), ReadError> {
+        match node.tag_name().name() {
             "g" | "a" => {
                 let label = node.attribute((INKSCAPE, "label")).or(node.attribute("id"));
                 let group = label.or(context.group);
-                self.children(node, &ElementContext { group, ..inner })
+                self.children(node, &ElementContext { group, ..*context })
             }
-            "switch" => choice(node).map_or(Ok(()), |choice| self.element(choice, &inner)),
-            "svg" => self.nested_viewport(node, [None, None], &inner),
-            "use" => self.reference(node, &inner),
-            _ => self.mapper.map_shape(node, &inner),
+            "switch" => choice(node).map_or(Ok(()), |choice| self.element(choice, context)),
+            "svg" => self.nested_viewport(node, [None, None], context),
+            "use" => self.reference(node, context),
+            _ => self.mapper.map_shape(node, cascade, context),
         }
     }
 
@@ -216,41 +236,6 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             self.element(child, context)?;
         }
         Ok(())
-    }
-
-    /// The transform of an element about its origin. Reports a finding, and applies no transform,
-    /// if it is malformed.
-    fn transform(
-        &mut self,
-        node: Node<'d, 't>,
-        cascade: &Cascade<'d>,
-        viewport: Viewport,
-    ) -> Affine {
-        let css = cascade.value(Property::Transform);
-        let css = css.and_then(|text| css_transform(text, viewport));
-        let written = css.is_none().then(|| node.attribute("transform")).flatten();
-        let transform = css.or_else(|| written.map_or(Some(Affine::IDENTITY), attribute_transform));
-        let Some(transform) = transform else {
-            let message = || "its `transform` is malformed".to_owned();
-            let remedy = "It is drawn without the `transform`; correct it";
-            let base = &mut self.mapper.base;
-            base.report(Code::WrongType, node, message, remedy);
-            return Affine::IDENTITY;
-        };
-        let origin = cascade.value(Property::TransformOrigin);
-        let origin = origin.and_then(|text| transform_origin(text, viewport));
-        let Some(origin) = origin.filter(|_| transform != Affine::IDENTITY) else {
-            return transform;
-        };
-        let reference = cascade.value(Property::TransformBox).unwrap_or("view-box");
-        if reference != "view-box" {
-            let message = || format!("`transform-box: {reference}` is not supported");
-            let remedy = "It is drawn with the origin of `view-box`; apply its transform in the \
-                          drawing program";
-            let base = &mut self.mapper.base;
-            base.report(Code::UnknownValue, node, message, remedy);
-        }
-        about(transform, origin)
     }
 
     /// Charges the budget for one more repetition of an element. Returns `false` if it is
@@ -357,13 +342,16 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
                 let style = inner
                     .style
                     .of_child(&cascade, viewport, &self.paint_servers);
-                let viewport = viewport.with_font_size(style.font_size);
-                let transform = self.transform(target, &cascade, viewport);
                 let inner = ElementContext {
-                    meters_from_user: transform.then(inner.meters_from_user),
-                    viewport,
+                    viewport: viewport.with_font_size(style.font_size),
                     style,
                     depth: inner.depth + 1,
+                    ..inner
+                };
+                let transform = self.transform(target, &cascade, &inner)?;
+                let meters_from_user = transform.then(inner.meters_from_user);
+                let inner = ElementContext {
+                    meters_from_user,
                     ..inner
                 };
                 self.nested_viewport(target, size, &inner)

@@ -12,7 +12,7 @@ use super::length::{FontSizes, length};
 pub(super) const METERS_PER_PX: f64 = 0.0254 / 96.0;
 
 /// The sizes that lengths refer to, in user units: of the viewport and of the font.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Viewport {
     pub(super) width: f64,
     pub(super) height: f64,

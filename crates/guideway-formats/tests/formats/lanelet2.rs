@@ -226,3 +226,27 @@ fn a_second_way_of_a_role_is_reported() {
     assert_eq!(found.place.element, "relation \"200\"");
     assert!(found.message.contains("`right`"), "{}", found.message);
 }
+
+#[test]
+fn a_map_on_the_antimeridian_is_small() {
+    let map = |longitudes: [f64; 2]| {
+        let node = |(i, latitude): (usize, f64)| {
+            let lon = longitudes[i % 2];
+            format!("<node id='{i}' lat='{latitude}' lon='{lon}'/>")
+        };
+        let latitudes = [0.000_03, 0.000_03, 0.0, 0.0];
+        let nodes: String = latitudes.into_iter().enumerate().map(node).collect();
+        read(&format!(
+            "<osm version='0.6'>{nodes}<way id='w0'><nd ref='0'/><nd ref='1'/></way><way id='w1'>\
+             <nd ref='2'/><nd ref='3'/></way><relation id='L'>{BOUNDS}\
+             <tag k='type' v='lanelet'/></relation></osm>"
+        ))
+    };
+    let (split, whole) = (map([179.9999, -179.9999]), map([8.0, 8.0002]));
+    let lengths = [&split, &whole].map(|layout| {
+        let (start, end) = ends(layout, "L");
+        end.x - start.x
+    });
+    assert!((lengths[0] - lengths[1]).abs() < 1e-6, "{lengths:?}");
+    assert!(!codes(&split).contains(&Code::Implausible));
+}

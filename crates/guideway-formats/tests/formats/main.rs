@@ -48,6 +48,7 @@ mod sequences;
 mod sniff;
 mod svg;
 mod svg_cases;
+mod svg_transforms;
 mod svg_write;
 mod vda5050;
 mod vda5050_write;

@@ -301,3 +301,40 @@ fn findings_of_the_cases_name_road_section_and_lane() {
         }
     }
 }
+
+#[test]
+fn headings_in_degrees_are_doubted() {
+    let lanes = section(0.0, &[(-1, record("width", "sOffset", 0.0, [3.0, 0.0]))]);
+    let found = |heading: f64| {
+        let geometry = line(0.0, 5.0).replace("hdg='0'", &format!("hdg='{heading:?}'"));
+        let found = findings(&road("5", &geometry, &lanes), Code::Implausible);
+        found.iter().any(|(_, message)| message.contains("heading"))
+    };
+    assert!([90.0, -45.0].into_iter().all(found));
+    assert!(![0.0, 3.1, -6.3, 9.5].into_iter().any(found));
+}
+
+#[test]
+fn records_and_sides_that_contradict_each_other_are_found() {
+    let width = |a: f64| record("width", "sOffset", 0.0, [a, 0.0]);
+    let found = |lanes: &str| {
+        let layout = road("5", &line(0.0, 5.0), lanes);
+        let found = findings(&layout, Code::Implausible);
+        (
+            layout,
+            found
+                .into_iter()
+                .map(|(_, message)| message)
+                .collect::<Vec<_>>(),
+        )
+    };
+    let twice = |second: f64| section(0.0, &[(-1, width(3.0) + &width(second))]);
+    let (layout, messages) = found(&twice(5.0));
+    assert_end(&layout, "7.0.-1", [5.0, -2.5]);
+    assert_eq!(messages, ["a second record begins at sOffset = 0"]);
+    assert!(found(&twice(3.0)).1.is_empty());
+    let swapped = section(0.0, &[(1, width(3.0))]).replace("id='1'", "id='-1'");
+    let (layout, messages) = found(&swapped);
+    assert_end(&layout, "7.0.-1", [5.0, -1.5]);
+    assert_eq!(messages, ["the lane -1 stands in `left`"]);
+}

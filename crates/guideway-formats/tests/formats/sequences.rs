@@ -64,6 +64,10 @@ fn orders_of_a_log_are_one_layout() {
             format!("uagv/v2/m/s/order {first}\nuagv/v2/m/s/order {second}\n"),
         ),
         (
+            "times and topics",
+            format!("2024-05-01T12:00:00Z a/order {first}\n[7.5] a/order: {second}\n"),
+        ),
+        (
             "messages",
             format!(
                 r#"{{"topic": "a", "payload": {first}}} {{"topic": "a", "payload": {quoted}}}"#
@@ -178,18 +182,54 @@ fn other_quotes_are_named() {
 }
 
 #[test]
-fn tables_of_other_formats_are_named() {
-    for (bytes, name) in [
-        (b"PAR1\x15\x04", "Parquet"),
-        (b"FEA1\0\0", "Feather of version 1"),
+fn other_formats_are_named_with_a_way_out() {
+    for (bytes, name, remedy) in [
+        (&b"PAR1\x15\x04"[..], "Parquet", "write_feather"),
+        (b"FEA1\0\0", "Feather of version 1", "write_feather"),
+        (b"AC1032\0\0", "DWG", "DXF"),
+        (b"PK\x03\x04\x14", "ZIP", "Unpack"),
+        (b"\x28\xB5\x2F\xFD\x04", "zstd", "Unpack"),
+        (b"\x89PNG\r\n\x1A\n", "PNG", "--floor-plan"),
+        (b"%PDF-1.7\n", "PDF", "SVG"),
+        (b"SQLite format 3\0\x10", "GeoPackage", "ogr2ogr"),
+        (
+            b"version https://git-lfs.github.com/spec/v1\n",
+            "Git LFS",
+            "git lfs pull",
+        ),
+        (
+            b"\xEF\xBB\xBF<!DOCTYPE html>\n<HTML><body/></HTML>",
+            "web page",
+            "Download",
+        ),
+        (
+            b"<?xml version='1.0'?><k:kml xmlns:k='u'/>",
+            "KML",
+            "ogr2ogr",
+        ),
+        (b"<net version='1.16'/>", "SUMO", "netconvert"),
+        (
+            b"{\"type\": \"Topology\", \"arcs\": []}",
+            "TopoJSON",
+            "ogr2ogr",
+        ),
+        (
+            b"{\"geometryType\": \"esriGeometryPolyline\", \"features\": []}",
+            "Esri",
+            "ogr2ogr",
+        ),
     ] {
         let error = read_bytes("test", bytes, &ReadOptions::default()).unwrap_err();
-        let error = error.to_string();
+        let (text, hint) = (error.to_string(), error.remedy());
         assert!(
-            error.contains(name) && error.contains("write_feather"),
-            "{error}"
+            text.contains(name) && text.contains("is not supported"),
+            "{text}"
         );
+        assert!(hint.contains(remedy), "{text}: {hint}");
     }
+    // A key of a layout counts more.
+    let text = b"{\"features\": [], \"type\": \"FeatureCollection\", \"arcs\": []}";
+    assert!(read_bytes("test", text, &ReadOptions::default()).is_ok());
 }
 
 #[test]

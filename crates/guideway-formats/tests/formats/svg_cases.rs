@@ -1,97 +1,48 @@
-//! Tests of SVG after public reports: CSS transforms, font sizes, conditions, circles of
-//! references, strokes that do not scale, document type definitions.
+//! Tests of SVG after public reports: font sizes, conditions, circles of references, strokes that
+//! do not scale, document type definitions.
 
-use guideway_layout::{Code, Layout, RunPoints};
-use guideway_spline::Point;
+use guideway_layout::{Code, RunPoints};
 use guideway_spline::uniform::point;
+use guideway_spline::{Bounds, Point};
 
 use crate::common::{codes, ends, read, read_real, real_cases};
 
-/// Reads a page on which a user unit is a meter.
-fn page(content: &str) -> Layout {
-    read(&format!(
-        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100000mm" height="100000mm"
-            viewBox="0 0 100 100" stroke="black" fill="none">{content}</svg>"#
-    ))
-}
-
-fn assert_line(content: &str, expected: [[f64; 2]; 2]) -> Layout {
-    let layout = page(content);
-    let (start, end) = ends(&layout, "p");
-    for (found, [x, y]) in [start, end].into_iter().zip(expected) {
-        let is_near = found.distance(Point::new(x, -y)) < 1e-9;
-        assert!(is_near, "{content}: {start:?} to {end:?}");
-    }
-    layout
-}
+use super::svg_transforms::{assert_line, page};
 
 #[test]
-fn css_transforms_apply_about_their_origin() {
-    let line = |attributes: &str| format!("<line id='p' x1='10' x2='20' {attributes}/>");
-    for (attributes, expected) in [
-        ("style='transform:scale(2)'", [[20.0, 0.0], [40.0, 0.0]]),
+fn geometry_may_be_stated_by_style() {
+    let bounds = |content: &str| {
+        let layout = page(content);
+        assert_eq!(
+            (layout.paths.len(), layout.refused.len()),
+            (1, 0),
+            "{content}"
+        );
+        let segments = layout.paths.get(0).runs().flat_map(|run| run.segments());
+        let boxes = segments.map(|segment| Bounds::of_segment(&segment));
+        let bounds = boxes.reduce(Bounds::union).unwrap();
+        [bounds.min.x, -bounds.max.y, bounds.max.x, -bounds.min.y].map(f64::round)
+    };
+    for (content, expected) in [
         (
-            "style='transform: translate(1px, 50%) rotate(90deg)'",
-            [[1.0, 60.0], [1.0, 70.0]],
-        ),
-        // A valid property hides the attribute; an invalid one does not.
-        (
-            "transform='scale(3)' style='transform:none'",
-            [[10.0, 0.0], [20.0, 0.0]],
-        ),
-        (
-            "transform='scale(3)' style='transform:qwe'",
-            [[30.0, 0.0], [60.0, 0.0]],
-        ),
-        (
-            "transform='rotate(90)' transform-origin='10 0'",
-            [[10.0, 0.0], [10.0, 10.0]],
+            "<circle id='p' style='r: 7px; cx: 9px; cy: 20%'/>",
+            [2.0, 13.0, 16.0, 27.0],
         ),
         (
-            "transform='scale(2)' transform-origin='center'",
-            [[-30.0, -50.0], [-10.0, -50.0]],
+            "<style>.a{width:10px;height:1em;x:3px}</style><rect id='p' class='a' width='99'/>",
+            [3.0, 0.0, 13.0, 16.0],
         ),
         (
-            "transform='scale(2)' style='transform-origin: right top'",
-            [[-80.0, 0.0], [-60.0, 0.0]],
+            "<ellipse id='p' rx='4' style='ry: 2px; rx: nonsense'/>",
+            [-4.0, -2.0, 4.0, 2.0],
         ),
         (
-            "transform='scale(2)' style='transform-origin: 10px 1em'",
-            [[10.0, -16.0], [30.0, -16.0]],
+            "<line id='p' style='x1: 5px' x2='9'/>",
+            [0.0, 0.0, 9.0, 0.0],
         ),
-        ("transform-origin='center'", [[10.0, 0.0], [20.0, 0.0]]),
     ] {
-        let layout = assert_line(&line(attributes), expected);
-        assert!(codes(&layout).is_empty(), "{attributes}");
-        // Groups and references transform alike.
-        let inner = "<line id='p' x1='10' x2='20'/>";
-        assert_line(&format!("<g {attributes}>{inner}</g>"), expected);
-        let sheet = attributes
-            .split_once("style='")
-            .map(|(_, rest)| rest.trim_end_matches('\''));
-        if let Some(sheet) = sheet.filter(|_| !attributes.starts_with("trans")) {
-            assert_line(&format!("<style>#p{{{sheet}}}</style>{inner}"), expected);
-        }
+        assert_eq!(bounds(content), expected, "{content}");
     }
-}
-
-#[test]
-fn a_malformed_transform_is_ignored_with_a_warning() {
-    for content in [
-        "<line id='p' x2='9' transform='qwe'/>",
-        "<g transform='qwe'><line id='p' x2='9'/></g>",
-        "<svg transform='scale(1'><line id='p' x2='9'/></svg>",
-    ] {
-        let layout = assert_line(content, [[0.0, 0.0], [9.0, 0.0]]);
-        assert_eq!(codes(&layout), [Code::WrongType], "{content}");
-    }
-}
-
-#[test]
-fn an_unsupported_box_of_an_origin_is_reported() {
-    let style = "transform-box: fill-box; transform-origin: center; transform: scale(2)";
-    let layout = page(&format!("<line id='p' x2='9' style='{style}'/>"));
-    assert_eq!(codes(&layout), [Code::UnknownValue]);
 }
 
 #[test]

@@ -1,8 +1,9 @@
-//! Checks blocks, and what entities inherit from INSERTs and layers: colors and visibility.
+//! Checks blocks and their clips, and what entities inherit from INSERTs and layers: colors and
+//! visibility.
 
 use super::{LINE, assert_near, drawing};
 use crate::common::{codes, ends};
-use guideway_layout::{Code, Value};
+use guideway_layout::{Code, Layout, Value};
 use guideway_spline::uniform;
 
 #[test]
@@ -155,4 +156,85 @@ fn reports_and_skips_hidden_entities() {
         6,
         "five entities and the TEXT"
     );
+}
+
+/// A block of two lines, references to it, and a boundary that clips the reference B1, drawn when
+/// the reference lay at (5, 5).
+fn clipped(inserts: &str, boundary: &str) -> Layout {
+    let block = "0 BLOCK\n2 RACK\n10 0\n20 0\n0 LINE\n5 A\n10 0\n20 0\n11 10\n21 0\n\
+                 0 LINE\n5 Z\n10 0\n20 3\n11 10\n21 3\n0 TEXT\n5 T\n1 Dock\n10 9\n20 0\n0 ENDBLK\n\
+                 0 BLOCK\n2 HALL\n10 0\n20 0\n0 INSERT\n5 B1\n2 RACK\n10 5\n20 5\n0 ENDBLK";
+    let rows = |x: f64| {
+        format!("40 1\n40 0\n40 0\n40 {x}\n40 0\n40 1\n40 0\n40 {x}\n40 0\n40 0\n40 1\n40 0\n")
+    };
+    drawing(
+        "",
+        block,
+        &format!(
+            "{inserts}0 ENDSEC\n0 SECTION\n2 OBJECTS\n0 DICTIONARY\n5 D1\n330 B1\n0 DICTIONARY\n5 D2\n\
+             330 D1\n0 SPATIAL_FILTER\n5 F1\n330 D2\n{boundary}71 1\n72 0\n73 0\n{}{}",
+            rows(-5.0),
+            rows(0.0)
+        ),
+    )
+}
+
+#[test]
+fn clipped_blocks_are_cut_at_their_boundary() {
+    // From (2, -1) to (6, 1) in the block.
+    let rectangle = "70 2\n10 7\n20 4\n10 11\n20 6\n";
+    let moved = "0 INSERT\n5 B1\n2 RACK\n10 100\n20 50\n50 90\n41 2\n42 2\n43 2\n";
+    let layout = clipped(moved, rectangle);
+    let (start, end) = ends(&layout, "B1/A");
+    assert_near(start, 100.0, 54.0);
+    assert_near(end, 100.0, 62.0);
+    // The other line is accounted for, and a text beyond the boundary names no station.
+    assert_eq!((layout.paths.len(), layout.refused.len()), (1, 1));
+    let hidden = layout.refused.get(0);
+    assert_eq!((hidden.id, hidden.code), ("B1/Z", Code::NotDrawn));
+    assert!(layout.notes.iter().all(|note| note.text != "Dock"));
+    assert!(!codes(&layout).contains(&Code::ApproximateShape));
+    // The boundary belongs to one reference.
+    let other = clipped("0 INSERT\n5 B2\n2 RACK\n10 0\n20 0\n", rectangle);
+    assert_eq!((other.paths.len(), other.notes.len()), (2, 2));
+
+    // A polygon with a notch, in a block within a block.
+    let notched = "70 5\n10 5\n20 4\n10 15\n20 4\n10 15\n20 9\n10 10\n20 4.5\n10 5\n20 9\n";
+    let nested = clipped("0 INSERT\n5 C\n2 HALL\n10 1000\n20 0\n", notched);
+    let edge = 5.0 / 4.5 * 0.5;
+    for (id, from, to) in [
+        ("C/B1/A [1]", 0.0, 5.0 - edge),
+        ("C/B1/A [2]", 5.0 + edge, 10.0),
+        ("C/B1/Z [1]", 0.0, 5.0 - 7.0 * edge),
+        ("C/B1/Z [2]", 5.0 + 7.0 * edge, 10.0),
+    ] {
+        let (start, end) = ends(&nested, id);
+        assert_near(
+            start,
+            1005.0 + from,
+            if id.contains('A') { 5.0 } else { 8.0 },
+        );
+        assert_near(end, 1005.0 + to, if id.contains('A') { 5.0 } else { 8.0 });
+    }
+    assert_eq!(nested.paths.len(), 4);
+}
+
+#[test]
+fn inverted_and_broken_boundaries_are_found() {
+    let insert = "0 INSERT\n5 B1\n2 RACK\n10 5\n20 5\n";
+    for (boundary, reason) in [
+        (
+            "102 {ACAD_XDICTIONARY\n360 X\n102 }\n70 2\n10 7\n20 4\n10 11\n20 6\n",
+            "inside",
+        ),
+        ("70 1\n10 7\n20 4\n", "corners"),
+        ("70 2\n10 7\n20 x\n10 11\n20 6\n", "corners"),
+    ] {
+        let layout = clipped(insert, boundary);
+        assert_eq!(layout.paths.len(), 2, "{reason}");
+        let found = layout.diagnostics.iter();
+        let found = found.filter(|d| d.code == Code::ApproximateShape);
+        let found: Vec<&str> = found.map(|d| d.message.as_str()).collect();
+        assert!(found.len() == 1 && found[0].contains(reason), "{found:?}");
+    }
 }

@@ -1,0 +1,115 @@
+//! Files of other formats: names the formats that people take for layouts, and the way to one that
+//! is read.
+
+use guideway_layout::Place;
+
+use crate::Problem;
+use crate::sniff::{format_of_key, root_keys, root_tag};
+
+const UNPACK: &str = "Unpack it first; of packed files, only those of gzip are read";
+const CONVERT: &str = "Convert it with GDAL: `ogr2ogr -f GeoJSON FILE.geojson FILE`";
+const IMAGE: &str = "Show it below a layout with `--floor-plan`, or trace it in a drawing program \
+                     that writes SVG or DXF";
+const TABLE: &str = "Convert it to Arrow, which is Feather of version 2: \
+                     pyarrow.feather.write_feather";
+
+/// First bytes, name and remedy of formats.
+const FIRST_BYTES: &[(&[u8], &str, &str)] = &[
+    (b"PK\x03\x04", "a ZIP archive", UNPACK),
+    (b"\x28\xB5\x2F\xFD", "a file packed with zstd", UNPACK),
+    (b"\xFD7zXZ\0", "a file packed with xz", UNPACK),
+    (b"BZh", "a file packed with bzip2", UNPACK),
+    (b"7z\xBC\xAF\x27\x1C", "a 7z archive", UNPACK),
+    (b"Rar!", "a RAR archive", UNPACK),
+    (b"\x89PNG", "a PNG image", IMAGE),
+    (b"\xFF\xD8\xFF", "a JPEG image", IMAGE),
+    (b"GIF8", "a GIF image", IMAGE),
+    (b"II*\0", "a TIFF image", IMAGE),
+    (b"MM\0*", "a TIFF image", IMAGE),
+    (
+        b"%PDF-",
+        "a PDF document",
+        "Export the drawing as DXF or SVG; Inkscape converts PDF to SVG",
+    ),
+    (
+        b"SQLite format 3\0",
+        "a GeoPackage or another database",
+        CONVERT,
+    ),
+    (b"\0\0\x27\x0A", "a shapefile", CONVERT),
+    (b"LINESTRING", "well-known text (WKT)", CONVERT),
+    (b"MULTILINESTRING", "well-known text (WKT)", CONVERT),
+    (
+        b"version https://git-lfs",
+        "a pointer of Git LFS, not the file itself,",
+        "Fetch the file: `git lfs pull`",
+    ),
+];
+
+/// Root element, name and remedy of formats in XML.
+const ROOTS: &[(&[u8], &str, &str)] = &[
+    (b"kml", "KML", CONVERT),
+    (b"gpx", "GPX", CONVERT),
+    (b"FeatureCollection", "GML", CONVERT),
+    (
+        b"net",
+        "a network of SUMO",
+        "Convert it: `netconvert -s FILE --opendrive-output FILE.xodr`",
+    ),
+    (
+        b"html",
+        "a web page",
+        "Download the file itself: a page about it, or of an error, was saved in its place",
+    ),
+];
+
+/// Returns the problem of a file of another format that is known.
+pub(crate) fn other_format(bytes: &[u8]) -> Option<Problem> {
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let text = text.trim_ascii_start();
+    let problem = |what: &str, remedy: &str| Problem::Unsupported {
+        place: Place::element("the file"),
+        what: what.to_owned(),
+        remedy: remedy.to_owned(),
+    };
+    let table = |what, read| problem(what, &format!("{TABLE}({read}(\"FILE\"), \"FILE.arrow\")"));
+    match bytes {
+        [b'P', b'A', b'R', b'1', ..] => {
+            return Some(table("a Parquet table", "pyarrow.parquet.read_table"));
+        }
+        [b'F', b'E', b'A', b'1', ..] => {
+            return Some(table("Feather of version 1", "pyarrow.feather.read_table"));
+        }
+        [b'A', b'C', b'1', b'0', version @ ..]
+            if version.first().is_some_and(u8::is_ascii_digit) =>
+        {
+            let remedy =
+                "Save it as DXF in the CAD program, or convert it with the ODA File Converter";
+            return Some(problem("a DWG drawing", remedy));
+        }
+        _ => {}
+    }
+    let known = match text.first()? {
+        b'<' => {
+            let root = root_tag(text).to_ascii_lowercase();
+            let mut roots = ROOTS.iter();
+            roots.find(|(name, ..)| name.eq_ignore_ascii_case(&root))
+        }
+        b'{' => return json_problem(text, problem),
+        _ => FIRST_BYTES
+            .iter()
+            .find(|(first, ..)| bytes.starts_with(first)),
+    };
+    known.map(|(_, what, remedy)| problem(what, remedy))
+}
+
+/// The problem of a JSON text whose root object has a key of another format, before any key of a
+/// layout.
+fn json_problem(text: &[u8], problem: impl Fn(&str, &str) -> Problem) -> Option<Problem> {
+    let mut keys = root_keys(text).take_while(|key| format_of_key(key).is_none());
+    keys.find_map(|key| match key {
+        b"arcs" => Some(problem("TopoJSON", CONVERT)),
+        b"geometryType" | b"spatialReference" => Some(problem("Esri JSON", CONVERT)),
+        _ => None,
+    })
+}
