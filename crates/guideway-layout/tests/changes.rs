@@ -57,8 +57,8 @@ fn between(old: &Layout, edit: impl FnOnce(&mut Layout)) -> Vec<(ElementKind, St
     let found = changes(old, &new, &CompareOptions::default());
     let with_values = found.elements.iter().map(|of| {
         let own = |text: &str| text.to_owned();
-        let change = match (of.change, found.values(of)) {
-            (Change::Renamed, _) => Found::Renamed(found.new_id(of).map(own).unwrap_or_default()),
+        let change = match (of.change, found.values(&of)) {
+            (Change::Renamed, _) => Found::Renamed(found.new_id(&of).map(own).unwrap_or_default()),
             (_, Some(values)) => Found::Set(
                 own(values.property),
                 values.vehicle_type.map(own),
@@ -66,7 +66,7 @@ fn between(old: &Layout, edit: impl FnOnce(&mut Layout)) -> Vec<(ElementKind, St
             ),
             (change, None) => Found::Of(change),
         };
-        (of.element, own(found.id(of)), change)
+        (of.element, own(found.id(&of)), change)
     });
     with_values.collect()
 }
