@@ -21,8 +21,9 @@ const TASK_PAIRS: usize = 1024;
 /// Elements are matched by identifier, in order among equal ones. Those that remain were renamed if
 /// one element is at their place: a node or station at the same position, a path with the same ends
 /// and middle, on the same level. They were renamed and moved if one element alone fits: a node at
-/// the same ends of paths, between the same nodes or within a meter; a path between the same nodes;
-/// a station with the same nodes or within a meter.
+/// the same ends of paths, between the same nodes or within a meter; a path between the same nodes,
+/// or one without nodes with the same shape within its length; a station with the same nodes or
+/// within a meter.
 ///
 /// ```
 /// use guideway_layout::{Change, CompareOptions, Layout, changes};
