@@ -137,7 +137,8 @@ fn not_lif(element: &str, expected: &str, found: String) -> Problem {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(unix)]
+#[cfg(test)]
 mod tests {
     use std::fmt::Write;
     use std::fs::{self, File};
