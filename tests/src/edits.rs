@@ -88,6 +88,7 @@ pub const KINDS: [(&str, Kind); 9] = [
         Edit::Reshape {
             paths,
             curves: Arc::new(curves),
+            written: Arc::default(),
         }
     }),
     ("given other curves", |scene, area, lcg| {
@@ -97,6 +98,7 @@ pub const KINDS: [(&str, Kind); 9] = [
         Edit::Reshape {
             paths,
             curves: Arc::new(curves),
+            written: Arc::default(),
         }
     }),
     ("restyled", |scene, area, lcg| {

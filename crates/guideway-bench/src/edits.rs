@@ -88,6 +88,7 @@ fn move_separately(scene: &Scene, paths: &Arc<[u32]>) -> [Edit; 2] {
     [after, before].map(|curves| Edit::Reshape {
         paths: Arc::clone(paths),
         curves: Arc::new(curves),
+        written: Arc::default(),
     })
 }
 

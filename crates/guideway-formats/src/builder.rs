@@ -3,12 +3,16 @@
 
 use guideway_layout::{
     Attributes, Block, Code, Diagnostics, Layout, Member, NewPath, Origin, Place, Property,
-    RefusedPath, Severity, SourceSpans, TextColumn, Value, element_name,
+    RefusedPath, Severity, SourceSpans, TextColumn, TextPosition, Value, element_name,
 };
 use guideway_spline::{Point, Runs};
 
 use crate::fields::FormatField;
-use crate::{Problem, ReadError, source::Source, text::printable};
+use crate::{
+    Problem, ReadError,
+    source::Source,
+    text::{compact, printable},
+};
 
 /// Makes the place of an element in the file. The builder calls it only for diagnostics it stores:
 /// formatting a place for each of a million faulty elements would dominate the read.
@@ -37,6 +41,8 @@ pub(crate) struct Builder<'a> {
     read_bytes: u64,
     /// First byte in the file of the element that is mapped, where lines are found at the end.
     pub(crate) element_byte: Option<usize>,
+    /// Place of the element that is mapped, where the layout does not keep the text.
+    pub(crate) element_position: Option<TextPosition>,
 }
 
 /// The table that an attribute belongs to.
@@ -74,18 +80,15 @@ impl<'a> Builder<'a> {
             file_bytes: file_bytes as u64,
             read_bytes: 0,
             element_byte: None,
+            element_position: None,
         }
     }
 
-    /// Adds to the bytes read, and reports progress once per MiB.
-    ///
-    /// # Errors
-    /// When the caller cancels the read.
+    /// Adds to the bytes read, and reports progress once per MiB. Fails if the caller cancels.
     pub(crate) fn advance(&mut self, bytes: usize) -> Result<(), ReadError> {
-        const STEP: u64 = 1 << 20;
-        let before = self.read_bytes / STEP;
+        let before = self.read_bytes >> 20;
         self.read_bytes += bytes as u64;
-        if self.read_bytes / STEP == before {
+        if self.read_bytes >> 20 == before {
             return Ok(());
         }
         if let Some(progress) = self.source.options.progress {
@@ -134,8 +137,9 @@ impl<'a> Builder<'a> {
         let points = path.runs.points().len() as u64;
         self.points_left = self.points_left.saturating_sub(points);
         let row = self.layout.paths.push(path);
-        let row = mark(&mut self.layout.paths.source, row as u32, self.element_byte);
-        Ok(row as usize)
+        let place = (self.element_byte, self.element_position);
+        mark(&mut self.layout.paths.source, row as u32, place);
+        Ok(row)
     }
 
     /// Sets the number of control points that the file may expand to.
@@ -220,9 +224,10 @@ impl<'a> Builder<'a> {
         types: &[&str],
     ) -> Result<u32, ReadError> {
         self.charge_text(id)?;
+        let place = (self.element_byte, self.element_position);
         let nodes = &mut self.layout.nodes;
         let row = nodes.push_for_types(id, position_m, level, types);
-        Ok(mark(&mut nodes.source, row, self.element_byte))
+        Ok(mark(&mut nodes.source, row, place))
     }
 
     /// Appends a station and returns its row.
@@ -234,9 +239,10 @@ impl<'a> Builder<'a> {
         level: Option<u32>,
     ) -> Result<u32, ReadError> {
         self.charge_text(id)?;
+        let place = (self.element_byte, self.element_position);
         let stations = &mut self.layout.stations;
         let row = stations.push(id, position_m, nodes, level);
-        Ok(mark(&mut stations.source, row, self.element_byte))
+        Ok(mark(&mut stations.source, row, place))
     }
 
     /// Appends a block and returns its row.
@@ -374,21 +380,15 @@ fn printable_place(at: PlaceFn<'_>, byte: Option<usize>) -> Place {
     place
 }
 
-/// Keeps the first byte of the element of a row, if the column can hold it. Returns the row.
-fn mark(source: &mut SourceSpans, row: u32, byte: Option<usize>) -> u32 {
-    if let Some(byte) = byte.filter(|&byte| byte < u32::MAX as usize) {
-        source.set(row as usize, byte);
+/// Keeps the place of the element of a row, or its first byte, if the column can hold it. Returns
+/// the row.
+fn mark(source: &mut SourceSpans, row: u32, place: (Option<usize>, Option<TextPosition>)) -> u32 {
+    match place {
+        (_, Some(position)) => source.set_position(row as usize, position),
+        (Some(byte), None) if byte < u32::MAX as usize => source.set(row as usize, byte),
+        _ => {}
     }
     row
-}
-
-/// Formats a number, in scientific notation where its digits would fill the line.
-fn compact(number: f64) -> String {
-    if number.abs() < 1e15 {
-        number.to_string()
-    } else {
-        format!("{number:e}")
-    }
 }
 
 /// Text budget of a file: 64 bytes per byte and 1 MiB, at most a full text column.

@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+#[cfg(unix)]
+use guideway_layout::try_reserve;
+
 use crate::Problem;
 
 #[cfg(unix)]
@@ -51,6 +54,30 @@ impl Input<'_> {
                 std::io::ErrorKind::UnexpectedEof => self.truncated(),
                 _ => Problem::Io(e),
             }),
+        }
+    }
+
+    /// Returns the bytes of a range, which are read into `buffer` unless they are in memory. The
+    /// caller checks its length.
+    ///
+    /// # Errors
+    /// See [`Self::read`].
+    pub(crate) fn part<'b>(
+        &'b self,
+        range: Range<usize>,
+        buffer: &'b mut Vec<u8>,
+    ) -> Result<&'b [u8], Problem> {
+        match self {
+            Self::Bytes(bytes) => bytes.get(range).ok_or_else(|| self.truncated()),
+            #[cfg(unix)]
+            Self::File(_) => {
+                buffer.clear();
+                try_reserve(buffer, range.len())
+                    .map_err(|_| Problem::Io(std::io::ErrorKind::OutOfMemory.into()))?;
+                buffer.resize(range.len(), 0);
+                self.read(range.start, buffer)?;
+                Ok(buffer)
+            }
         }
     }
 

@@ -12,9 +12,15 @@ use crate::input::Input;
 use crate::input::ReadAheadFile;
 use crate::other_format::other_format;
 use crate::ros_map::is_ros_map;
+#[cfg(unix)]
+use crate::sniff::has_lif_key;
 use crate::source::{ReadOptions, Source};
 use crate::unpack::unpack;
 use crate::{Format, Problem, ReadError, sniff};
+
+/// Bytes of the head of a file that tell its format.
+#[cfg(unix)]
+const HEAD_BYTES: u64 = 64 << 10;
 
 /// Reads a layout file. The content decides the format, not the name of the file.
 ///
@@ -28,12 +34,15 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     let size = file.metadata().map_err(io_problem).map_err(fail)?.len();
     check_size(size, &options.limits).map_err(fail)?;
     #[cfg(unix)]
-    if is_arrow(&mut file).map_err(fail)? {
+    if let Some(format) = format_in_parts(&mut file, size).map_err(fail)? {
         let name = &name;
         let file = ReadAheadFile::new(file, size, path);
         let source = Source { name, options };
-        source.check_format(Format::Arrow)?;
-        return crate::arrow::read(source, &Input::File(&file));
+        source.check_format(format)?;
+        return match format {
+            Format::Arrow => crate::arrow::read(source, &Input::File(&file)),
+            _ => crate::lif::read(source, &Input::File(&file)),
+        };
     }
     let bytes = read_whole(&mut file, options).map_err(fail)?;
     read_bytes(&name, &bytes, options)
@@ -78,7 +87,7 @@ pub fn read_bytes(
     }
     format.map_or(Ok(()), |format| source.check_format(format))?;
     match format {
-        Some(Format::Lif) => crate::lif::read(source, bytes),
+        Some(Format::Lif) => crate::lif::read(source, &Input::Bytes(bytes)),
         Some(Format::Arrow) => crate::arrow::read(source, &Input::Bytes(bytes)),
         Some(Format::OpenTcs) => crate::opentcs::read(source, bytes),
         Some(Format::Dxf) => crate::dxf::read(source, bytes),
@@ -93,16 +102,21 @@ pub fn read_bytes(
     }
 }
 
-/// Returns whether a file is Arrow. Its reader loads parts of the file on several threads, so the
-/// file is not read as a whole.
+/// Returns the format of a file whose reader loads parts of it, so that it is not read as a whole:
+/// Arrow, and LIF that is too large to be kept.
 #[cfg(unix)]
-fn is_arrow(file: &mut File) -> Result<bool, Problem> {
-    let mut first_bytes = Vec::new();
-    file.take(8)
-        .read_to_end(&mut first_bytes)
+fn format_in_parts(file: &mut File, size: u64) -> Result<Option<Format>, Problem> {
+    let mut head = Vec::new();
+    file.take(HEAD_BYTES)
+        .read_to_end(&mut head)
         .map_err(io_problem)?;
     io::Seek::rewind(file).map_err(io_problem)?;
-    Ok(sniff(&first_bytes) == Some(Format::Arrow))
+    let is_large = size > crate::lif::MAX_KEPT_BYTES as u64;
+    Ok(match sniff(&head) {
+        Some(Format::Arrow) => Some(Format::Arrow),
+        Some(Format::Lif) if is_large && has_lif_key(&head) => Some(Format::Lif),
+        _ => None,
+    })
 }
 
 /// Reads the bytes of a file that is no layout, such as an image.

@@ -1,6 +1,7 @@
 //! Format detection: finds the format of a file from its first bytes, regardless of its name.
 
 use crate::Format;
+use crate::text::BYTE_ORDER_MARK;
 use crate::xml::Prolog;
 
 /// Returns the format that bytes begin to be, or `None` if they match no format.
@@ -25,7 +26,7 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
     if crate::dxf::is_dxf(bytes) {
         return Some(Format::Dxf);
     }
-    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     match text.trim_ascii_start().first()? {
         b'{' => Some(
             root_keys(text)
@@ -44,6 +45,14 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
         }),
         _ => crate::rmf::is_rmf(text).then_some(Format::Rmf),
     }
+}
+
+/// Returns `true` if the first key of a root object that one format uses is one of LIF.
+#[cfg(unix)]
+pub(crate) fn has_lif_key(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    text.trim_ascii_start().starts_with(b"{")
+        && root_keys(text).find_map(format_of_key) == Some(Format::Lif)
 }
 
 /// Returns the local name of the root element of an XML text; any bytes if the text is not XML.

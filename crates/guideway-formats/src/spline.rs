@@ -48,6 +48,9 @@ impl Repair {
         let (degree, points, knots) = (spline.degree, spline.points.len(), &spline.knots);
         let (first, last) = (*knots.first()?, *knots.last()?);
         let count = knots.len();
+        if count == points + degree + 1 {
+            return None;
+        }
         let clamped_by = |times: usize| -> Vec<f64> {
             let before = std::iter::repeat_n(first, times);
             let after = std::iter::repeat_n(last, times);
@@ -56,7 +59,7 @@ impl Repair {
         let repeats = |knots: &[f64]| knots.iter().take_while(|knot| **knot == knots[0]).count();
         let reversed: Vec<f64> = knots.iter().rev().copied().collect();
         let repeats = repeats(knots).max(repeats(&reversed));
-        if count == points + degree + 1 || repeats > degree {
+        if repeats > degree {
             return None;
         }
         // Rhino and openNURBS count so.
@@ -218,7 +221,8 @@ impl Builder<'_> {
             return None;
         }
         let weights = rational.then(|| spline.weights.clone());
-        match Nurbs::new(degree, knots.clone(), spline.points.clone(), weights) {
+        let again = if rational { knots.clone() } else { Vec::new() };
+        match Nurbs::new(degree, knots, spline.points.clone(), weights) {
             Ok(curve) => {
                 self.check_shape(&curve, at);
                 Some((curve, true))
@@ -226,7 +230,7 @@ impl Builder<'_> {
             Err(error @ (NurbsError::Weight { .. } | NurbsError::NoWeight { .. })) => {
                 let remedy = "Weight 1 is used for all points; correct the weights";
                 self.report(Code::BadWeight, at, || error.to_string(), remedy);
-                let plain = Nurbs::new(degree, knots, spline.points.clone(), None);
+                let plain = Nurbs::new(degree, again, spline.points.clone(), None);
                 Some((plain.ok()?, false))
             }
             Err(error) => {

@@ -5,6 +5,9 @@ use guideway_layout::Limits;
 
 use crate::{Problem, ReadError, source::Source};
 
+/// The byte order mark of UTF-8.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
 /// Decodes the bytes of a file as UTF-8, without a byte order mark.
 pub(crate) fn decode_utf8<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<&'b str, ReadError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
@@ -35,6 +38,15 @@ pub(crate) fn printable(text: &str) -> String {
         short.push('…');
     }
     short
+}
+
+/// Formats a number, in scientific notation where its digits would fill the line.
+pub(crate) fn compact(number: f64) -> String {
+    if number.abs() < 1e15 {
+        number.to_string()
+    } else {
+        format!("{number:e}")
+    }
 }
 
 /// Returns line and column of a byte, from 1.

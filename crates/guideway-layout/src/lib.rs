@@ -83,7 +83,7 @@ pub use check::{
 pub use code::{Code, Severity};
 pub use compare::{
     Change, ChangedTexts, ChangedValue, Changes, CompareOptions, Difference, ElementChange,
-    changes, differences,
+    ElementChanges, changes, differences,
 };
 pub use diagnostic::{Diagnostic, Diagnostics, FindingKind};
 pub use geo_origin::GeoOrigin;

@@ -13,13 +13,30 @@ pub struct TextPosition {
 }
 
 impl TextPosition {
+    /// The first byte of a text.
+    pub const FIRST: Self = Self { line: 1, column: 1 };
+
     /// A line whose column is unknown.
     pub fn line(line: u32) -> Self {
         Self { line, column: 0 }
     }
 
+    /// The place of a byte of a text that begins here; `within` is its place in the text alone.
+    #[must_use]
+    pub fn then(self, within: Self) -> Self {
+        let column = match within.line {
+            0 | 1 => self.column.saturating_add(within.column).saturating_sub(1),
+            _ => within.column,
+        };
+        Self {
+            line: self.line.saturating_add(within.line).saturating_sub(1),
+            column,
+        }
+    }
+
     /// The place behind some bytes that begin here.
-    fn after(self, bytes: &[u8]) -> Self {
+    #[must_use]
+    pub fn after(self, bytes: &[u8]) -> Self {
         let newlines = bytes.iter().filter(|b| **b == b'\n').count() as u32;
         let last = match newlines {
             0 => bytes,
@@ -62,7 +79,7 @@ impl<'t> LineIndex<'t> {
         let byte = byte.min(self.text.len());
         let block = (byte / BLOCK_BYTES).min(self.blocks.len().saturating_sub(1));
         let Some(start) = self.blocks.get(block) else {
-            return TextPosition { line: 1, column: 1 };
+            return TextPosition::FIRST;
         };
         start.after(&self.text[block * BLOCK_BYTES..byte])
     }
@@ -87,6 +104,12 @@ mod tests {
         let TextPosition { line, column } = lines.position("a\nhälle b\n".len() + 2 * 700);
         assert_eq!((line, column), (3, 701));
         assert_eq!(LineIndex::new("").position(7).line, 1);
+        for (before, text) in [("ä\nbc", "d\nef"), ("ab", "cd"), ("", "\n"), ("a\n", "")] {
+            let [start, within] = [before, text].map(|t| TextPosition::FIRST.after(t.as_bytes()));
+            let whole = [before, text].concat();
+            let expected = TextPosition::FIRST.after(whole.as_bytes());
+            assert_eq!(start.then(within), expected, "{before:?}");
+        }
         assert_eq!(LineIndex::new("\u{FEFF}{}").position(4).column, 2);
     }
 }

@@ -57,8 +57,8 @@ fn between(old: &Layout, edit: impl FnOnce(&mut Layout)) -> Vec<(ElementKind, St
     let found = changes(old, &new, &CompareOptions::default());
     let with_values = found.elements.iter().map(|of| {
         let own = |text: &str| text.to_owned();
-        let change = match (of.change, found.values(of)) {
-            (Change::Renamed, _) => Found::Renamed(found.new_id(of).map(own).unwrap_or_default()),
+        let change = match (of.change, found.values(&of)) {
+            (Change::Renamed, _) => Found::Renamed(found.new_id(&of).map(own).unwrap_or_default()),
             (_, Some(values)) => Found::Set(
                 own(values.property),
                 values.vehicle_type.map(own),
@@ -66,7 +66,7 @@ fn between(old: &Layout, edit: impl FnOnce(&mut Layout)) -> Vec<(ElementKind, St
             ),
             (change, None) => Found::Of(change),
         };
-        (of.element, own(found.id(of)), change)
+        (of.element, own(found.id(&of)), change)
     });
     with_values.collect()
 }
@@ -258,6 +258,58 @@ fn elements_that_were_renamed_and_moved_are_matched_by_what_is_around_them() {
             l.paths.set_nodes(0, None, Some(1));
         });
         assert_eq!(gone(&found), count, "{x} m: {found:?}");
+    }
+}
+
+#[test]
+fn lines_of_a_drawing_that_were_renamed_and_moved_are_matched_by_their_shape() {
+    let line = |layout: &mut Layout, id: &str, from: [f64; 2], by: [f64; 2]| {
+        let [from, by] = [from, by].map(|[x, y]| Point::new(x, y));
+        let mut runs = Runs::default();
+        runs.push_line(from, from + by);
+        let path = NewPath {
+            id,
+            runs: &runs,
+            ..NewPath::default()
+        };
+        layout.paths.push(&path);
+    };
+    let mut old = Layout::default();
+    line(&mut old, "a", [0.0, 0.0], [10.0, 0.0]);
+    line(&mut old, "b", [0.0, 5.0], [0.0, 7.0]);
+    line(&mut old, "kept", [0.0, 50.0], [10.0, 0.0]);
+    let changed = |moved: &[([f64; 2], [f64; 2])]| {
+        let kinds = between(&old, |l| {
+            l.retain_paths(&[2]);
+            for (i, &(from, by)) in moved.iter().enumerate() {
+                line(l, &format!("new {i}"), from, by);
+            }
+        });
+        let gone = kinds
+            .iter()
+            .filter(|(.., found)| *found == Found::Of(Change::Removed));
+        (gone.count(), kinds)
+    };
+    let (gone, found) = changed(&[([2.0, 3.0], [10.0, 0.0]), ([4.0, 5.0], [0.0, 7.0])]);
+    assert_eq!(gone, 0, "{found:?}");
+    for (id, to) in [("a", "new 0"), ("b", "new 1")] {
+        assert!(is_named(&found, id, to), "{found:?}");
+    }
+    for (expected, moved) in [
+        // Another shape, far away, and two that may be it.
+        (2, vec![([2.0, 3.0], [10.0, 0.5])]),
+        (2, vec![([20.0, 0.0], [10.0, 0.0])]),
+        (
+            2,
+            vec![([1.0, 1.0], [10.0, 0.0]), ([0.0, 3.0], [10.0, 0.0])],
+        ),
+        (
+            1,
+            vec![([1.0, 1.0], [10.0, 0.0]), ([30.0, 0.0], [10.0, 0.0])],
+        ),
+    ] {
+        let (gone, found) = changed(&moved);
+        assert_eq!(gone, expected, "{moved:?}: {found:?}");
     }
 }
 

@@ -55,6 +55,7 @@ fn edits() -> Vec<Edit> {
         Edit::Reshape {
             paths: [2, 0].into(),
             curves: Arc::new(curves),
+            written: Arc::default(),
         },
         Edit::Restyle([(1, red), (2, OwnStyle::default())].into()),
         Edit::SetStates([(0, PathState::Hidden), (2, PathState::Removed)].into()),
@@ -127,6 +128,7 @@ fn rejected_edits_change_nothing() {
         Edit::Reshape {
             paths: [0].into(),
             curves: Arc::default(),
+            written: Arc::default(),
         },
         Edit::SetStates([9, 11].map(|path| (path, PathState::Hidden)).into()),
         Edit::Insert([Insertion::default()].into()),

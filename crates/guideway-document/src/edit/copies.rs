@@ -1,12 +1,17 @@
-//! Builds the copies of elements: new rows that refer to each other as the originals do.
+//! Copies elements: builds new rows that refer to each other as the originals do, and inserts them
+//! into the same document.
 
-use guideway_layout::Layout;
-use guideway_scene::{Edit, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
-use guideway_spline::{Affine, Runs};
+use std::sync::Arc;
+
+use guideway_layout::{Layout, WrittenCurve, WrittenCurves};
+use guideway_scene::{Edit, EditError, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
+use guideway_spline::{Affine, Point, Runs};
 
 use super::names::Names;
+use super::perform::reshape_as_written;
 use crate::PathSet;
 use crate::change::Change;
+use crate::document::Document;
 use crate::elements::Elements;
 
 /// Elements to copy.
@@ -28,6 +33,8 @@ pub(super) struct Copies<'a> {
     first_rows: [u32; 3],
     nodes: Vec<NewNode>,
     paths: Vec<Insertion>,
+    /// Curves of the new paths as they were written, by their indices.
+    written: Vec<(usize, WrittenCurve)>,
     stations: Vec<NewStation>,
 }
 
@@ -40,6 +47,7 @@ impl<'a> Copies<'a> {
             first_rows: tables.map(|of| of.row_count(scene.layout()) as u32),
             nodes: Vec::new(),
             paths: Vec::new(),
+            written: Vec::new(),
             stations: Vec::new(),
         }
     }
@@ -86,6 +94,9 @@ impl<'a> Copies<'a> {
             for run in path.runs() {
                 runs.push(&run.iter().map(|p| by.apply(p)).collect::<Vec<_>>());
             }
+            if let Some(curve) = paths.written_curve(at) {
+                self.written.push((self.paths.len(), curve.mapped(by)));
+            }
             self.paths.push(Insertion {
                 id: name(path_names, path.id()),
                 runs,
@@ -122,8 +133,23 @@ impl<'a> Copies<'a> {
         }
     }
 
+    /// The change that sets the written curves of the inserted paths, if they have some.
+    fn written_curves(&self) -> Option<Change> {
+        let rows = self
+            .written
+            .iter()
+            .map(|(at, _)| self.first_rows[0] + *at as u32);
+        let curves = self.written.iter().map(|(at, _)| &self.paths[*at].runs);
+        let mut written = WrittenCurves::default();
+        for (i, (_, curve)) in self.written.iter().enumerate() {
+            written.set(i, Some(Arc::new(curve.clone())));
+        }
+        (!written.is_empty()).then(|| reshape_as_written(rows.collect(), curves, written))
+    }
+
     /// The changes that insert the copies.
     pub(super) fn into_changes(self) -> Vec<Change> {
+        let written = self.written_curves();
         let mut changes: Vec<Change> = Vec::new();
         if !self.nodes.is_empty() {
             changes.push(TableEdit::InsertNodes(self.nodes.into()).into());
@@ -131,9 +157,58 @@ impl<'a> Copies<'a> {
         if !self.paths.is_empty() {
             changes.push(Edit::Insert(self.paths.into()).into());
         }
+        changes.extend(written);
         if !self.stations.is_empty() {
             changes.push(TableEdit::InsertStations(self.stations.into()).into());
         }
         changes
+    }
+}
+
+impl Document {
+    /// Copies the selected paths with their nodes and stations, and selects the copied paths. See
+    /// [`Self::copy`].
+    ///
+    /// # Errors
+    /// As [`Self::copy`].
+    pub fn copy_selection(&mut self, count: u32, step_m: Point<f64>) -> Result<(), EditError> {
+        let selected = Arc::clone(&self.selection);
+        self.copy(&selected, count, step_m).map(drop)
+    }
+
+    /// Copies elements `count` times, each copy `step_m` from the previous one, and selects the
+    /// copied paths. Copies the end nodes of the paths too, and the stations whose nodes are all
+    /// copied. Copies keep properties and style; their names are numbered. Returns their rows.
+    ///
+    /// # Errors
+    /// When an element does not exist, or a copy would exceed the coordinate limit; the
+    /// document is unchanged.
+    pub fn copy(
+        &mut self,
+        elements: &Elements,
+        count: u32,
+        step_m: Point<f64>,
+    ) -> Result<Elements, EditError> {
+        self.check_exist(elements)?;
+        let all = self.with_places(elements);
+        if all.is_empty() || count == 0 {
+            return Ok(Elements::default());
+        }
+        let layout = self.layout();
+        let mut copies = Copies::into(&self.scene);
+        for number in 1..=count {
+            let source = Source {
+                layout,
+                elements: &all,
+                is_own: true,
+                number: Some(number),
+                levels: None,
+            };
+            copies.add(&source, Affine::translation(step_m * f64::from(number)));
+        }
+        let (rows, changes) = (copies.rows(), copies.into_changes());
+        self.perform("copy", changes)?;
+        self.selection = Arc::new(Elements::of_paths(&rows.paths));
+        Ok(rows)
     }
 }

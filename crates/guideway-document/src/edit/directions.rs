@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Direction, Values};
+use guideway_layout::{Direction, Values, WrittenCurves};
 use guideway_scene::{Table, TableEdit};
 
 use super::curves::runs_of;
 use super::error::OperationError;
-use super::perform::reshape;
+use super::perform::reshape_as_written;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
@@ -41,7 +41,12 @@ impl Document {
         for [a, b] in EXCHANGED {
             changes.extend(self.exchange(&rows, a, b));
         }
-        changes.push(reshape(rows, &curves));
+        let mut written = WrittenCurves::default();
+        for (i, &row) in rows.iter().enumerate() {
+            let curve = self.layout().paths.written_curve(row as usize);
+            written.set(i, curve.map(|curve| curve.reversed().into()));
+        }
+        changes.push(reshape_as_written(rows, &curves, written));
         Ok(self.perform("reverse", changes)?)
     }
 

@@ -7,7 +7,6 @@ use guideway_scene::{Edit, EditError, Insertion};
 use guideway_spline::{Point, Runs};
 
 use super::curves::{curve_along, refined, runs_of};
-use super::perform::reshape;
 use crate::change::Change;
 use crate::document::Document;
 use crate::elements::Elements;
@@ -26,7 +25,7 @@ impl Document {
         if paths.is_empty() {
             return Ok(());
         }
-        self.perform("refine", vec![reshape(paths, &curves)])
+        self.perform("refine", self.reshape(paths, &curves))
     }
 
     /// Adds and selects a path from the first to the last point that bends toward those between. An

@@ -5,16 +5,15 @@
 //! | `transform`, `node_moves`, `points` | elements, nodes, control points | moved elements, and what follows them |
 //! | `draw`, `create` | positions, nodes | new paths, nodes and stations |
 //! | `properties`, `vehicle_types`, `levels`, `directions`, `rename` | elements | other properties |
-//! | `copy`, `clip`, `paste`, by `copies` | elements | copies in the same or another document |
+//! | `copies`, `clip`, `paste` | elements | copies in the same or another document |
 //! | `delete` | elements | removed rows |
-//! | `curves`, `names`, `property_value`, `elements`, `error` | | parts of the above |
+//! | `curves`, `lengths`, `names`, `property_value`, `elements`, `error` | | parts of the above |
 //! | `shapes` | paths, nodes, radii | paths that are split, joined, welded, aligned, rounded |
 //! | `perform` | [`Change`](crate::Change)s | the changed document and an undoable step |
 
 mod cells;
 mod clip;
 mod copies;
-mod copy;
 mod create;
 mod curves;
 mod delete;
@@ -22,6 +21,7 @@ mod directions;
 mod draw;
 mod elements;
 mod error;
+mod lengths;
 mod levels;
 mod names;
 mod node_moves;

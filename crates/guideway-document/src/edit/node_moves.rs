@@ -7,7 +7,6 @@ use guideway_scene::{EditError, Table};
 use guideway_spline::Point;
 
 use super::curves::{runs_of, with_moved_ends};
-use super::perform::reshape;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
@@ -60,7 +59,7 @@ impl Document {
         let curves: Vec<_> = paths.map(stretched).collect();
         let mut changes = vec![Change::MoveNodes(to.into())];
         if !rows.is_empty() {
-            changes.push(reshape(rows.iter().collect(), &curves));
+            changes.extend(self.reshape(rows.iter().collect(), &curves));
         }
         changes
     }

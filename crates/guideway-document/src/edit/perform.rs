@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use guideway_layout::WrittenCurves;
 use guideway_scene::{Edit, EditError, PathState, Table, TableEdit};
 use guideway_spline::{Point, Runs};
 
@@ -190,8 +191,18 @@ pub(super) fn set_states(paths: impl Iterator<Item = u32>, state: PathState) -> 
 
 /// A change that replaces the curves of paths.
 pub(super) fn reshape(paths: Vec<u32>, curves: &[Runs]) -> Change {
+    reshape_as_written(paths, curves, WrittenCurves::default())
+}
+
+/// A change that replaces the curves of paths. `written` has those that are kept as written.
+pub(super) fn reshape_as_written<'r>(
+    paths: Vec<u32>,
+    curves: impl IntoIterator<Item = &'r Runs>,
+    written: WrittenCurves,
+) -> Change {
     Change::Scene(Edit::Reshape {
         paths: paths.into(),
         curves: Arc::new(geometry_of(curves)),
+        written: written.into(),
     })
 }

@@ -4,7 +4,6 @@ use guideway_scene::{EditError, Table};
 use guideway_spline::Point;
 
 use super::curves::{hold_start, runs_of, start_of, with_changed_run};
-use super::perform::reshape;
 use crate::document::Document;
 
 /// Reference to a control point of a path.
@@ -135,7 +134,7 @@ impl Document {
             true
         });
         match changed {
-            Some(runs) => self.perform(name, vec![reshape(vec![point.path], &[runs])]),
+            Some(runs) => self.perform(name, self.reshape(vec![point.path], &[runs])),
             None => Ok(()),
         }
     }

@@ -58,6 +58,7 @@ impl Document {
             let paths: Arc<[u32]> = paths.iter().collect();
             changes.push(Edit::Transform { paths, by }.into());
         }
+        changes.extend(self.transformed_lengths(paths, by));
         let to = |node| (node, by.apply(self.node_position_m(node)));
         let to: Vec<(u32, Point<f64>)> = nodes.iter().map(to).collect();
         changes.extend(self.moves_of_nodes(&to, paths));

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Geometry, OwnStyle};
+use guideway_layout::{Geometry, OwnStyle, WrittenCurve, WrittenCurves};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::{Affine, Point, Runs};
 
@@ -88,9 +88,13 @@ impl Decoder<'_> {
                     origin: self.point()?,
                 },
             },
-            tag::RESHAPE => Edit::Reshape {
+            tag @ (tag::RESHAPE | tag::RESHAPE_AS_WRITTEN) => Edit::Reshape {
                 paths: self.rows()?,
                 curves: Arc::new(self.geometry()?),
+                written: Arc::new(match tag {
+                    tag::RESHAPE => WrittenCurves::default(),
+                    _ => self.written_curves()?,
+                }),
             },
             tag::RESTYLE => {
                 let style = |input: &mut Self| Some((input.number()?, input.style()?));
@@ -144,13 +148,39 @@ impl Decoder<'_> {
     fn runs(&mut self) -> Option<Runs> {
         let mut runs = Runs::default();
         for _ in 0..self.number()? {
-            let points = self.list(Self::point)?;
+            let points = self.points()?;
             if points.len() < 4 {
                 return None;
             }
             runs.push(&points);
         }
         Some(runs)
+    }
+
+    fn written_curves(&mut self) -> Option<WrittenCurves> {
+        let mut curves = WrittenCurves::default();
+        for _ in 0..self.number()? {
+            let place = self.number()? as usize;
+            let (degree, knots, points_m) = (self.number()?, self.numbers()?, self.points()?);
+            let has_weights = self.byte()? != 0;
+            let weights = self.numbers()?;
+            let curve = WrittenCurve {
+                degree,
+                knots,
+                points_m,
+                weights: has_weights.then_some(weights),
+            };
+            curves.set(place, Some(curve.into()));
+        }
+        Some(curves)
+    }
+
+    fn numbers(&mut self) -> Option<Vec<f64>> {
+        self.list(|input| input.take().map(f64::from_le_bytes))
+    }
+
+    fn points(&mut self) -> Option<Vec<Point<f64>>> {
+        self.list(Self::point)
     }
 
     fn geometry(&mut self) -> Option<Geometry> {

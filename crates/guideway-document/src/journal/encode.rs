@@ -1,6 +1,6 @@
 //! Encodes journal entries as payload bytes. `decode` is the inverse.
 
-use guideway_layout::{Geometry, OwnStyle, RunPoints};
+use guideway_layout::{Geometry, OwnStyle, RunPoints, WrittenCurve};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::Point;
 
@@ -85,10 +85,24 @@ impl Encoder {
                     .into_iter()
                     .for_each(|p| self.point(p));
             }
-            Edit::Reshape { paths, curves } => {
-                self.byte(tag::RESHAPE);
+            Edit::Reshape {
+                paths,
+                curves,
+                written,
+            } => {
+                self.byte(match written.is_empty() {
+                    true => tag::RESHAPE,
+                    false => tag::RESHAPE_AS_WRITTEN,
+                });
                 self.list(paths, |out, &path| out.number(path));
                 self.geometry(curves);
+                if !written.is_empty() {
+                    let written: Vec<_> = written.iter().collect();
+                    self.list(&written, |out, (place, curve)| {
+                        out.number(*place as u32);
+                        out.written_curve(curve);
+                    });
+                }
             }
             Edit::Restyle(styles) => {
                 self.byte(tag::RESTYLE);
@@ -137,6 +151,18 @@ impl Encoder {
     fn style(&mut self, style: OwnStyle) {
         self.optional(style.width_m.map(f32::to_bits));
         self.optional(style.color_rgba);
+    }
+
+    fn written_curve(&mut self, curve: &WrittenCurve) {
+        self.number(curve.degree);
+        self.numbers(&curve.knots);
+        self.list(&curve.points_m, |out, &point| out.point(point));
+        self.byte(u8::from(curve.weights.is_some()));
+        self.numbers(curve.weights.as_deref().unwrap_or_default());
+    }
+
+    fn numbers(&mut self, numbers: &[f64]) {
+        self.list(numbers, |out, number| out.bytes(&number.to_le_bytes()));
     }
 
     fn geometry(&mut self, curves: &Geometry) {

@@ -11,6 +11,7 @@ pub(super) const SET_STATES: u8 = 14;
 pub(super) const INSERT: u8 = 15;
 pub(super) const MOVE_NODES: u8 = 16;
 pub(super) const TABLES: u8 = 17;
+pub(super) const RESHAPE_AS_WRITTEN: u8 = 18;
 
 // After `TABLES`:
 pub(super) const SET_IDS: u8 = 1;

@@ -5,7 +5,8 @@ use std::mem::discriminant;
 use std::sync::Arc;
 
 use guideway_layout::{
-    Attribute, Direction, Geometry, Member, OwnStyle, Quantity, TypeEntries, Value,
+    Attribute, Direction, Geometry, Member, OwnStyle, Quantity, TypeEntries, Value, WrittenCurve,
+    WrittenCurves,
 };
 use guideway_scene::{Edit, Insertion, NewNode, NewStation, PathState, Table, TableEdit};
 use guideway_spline::{Affine, Point, Runs};
@@ -22,6 +23,14 @@ fn every_change() -> JournalEntry {
     runs.push_line(Point::new(0.0, 1.0), Point::new(2.0, 3.0));
     let mut curves = Geometry::default();
     curves.push(&runs);
+    let mut written = WrittenCurves::default();
+    let curve = WrittenCurve {
+        degree: 1,
+        knots: vec![0.0, 0.0, 1.0, 1.0],
+        points_m: vec![Point::new(0.0, 1.0), Point::new(2.0, 3.0)],
+        weights: Some(vec![1.0, 2.0]),
+    };
+    written.set(0, Some(curve.into()));
     let style = OwnStyle {
         width_m: Some(0.5),
         color_rgba: None,
@@ -43,7 +52,13 @@ fn every_change() -> JournalEntry {
         },
         Edit::Reshape {
             paths: [4].into(),
+            curves: curves.clone().into(),
+            written: Arc::default(),
+        },
+        Edit::Reshape {
+            paths: [4].into(),
             curves: curves.into(),
+            written: written.into(),
         },
         Edit::Restyle([(1, style)].into()),
         Edit::SetStates([(1, PathState::Hidden), (2, PathState::Removed)].into()),

@@ -1,8 +1,9 @@
 //! Growth: edits of n rows cost O(n), and so does their undo. An exponent, never seconds.
 
-use std::time::{Duration, Instant};
+use std::cell::RefCell;
 
 use guideway_document::{Document, Elements, Neighbors, PropertyRef};
+use guideway_growth::exponent_of_time;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_scene::Table;
 use guideway_spline::{Affine, Runs};
@@ -35,37 +36,6 @@ fn chain(count: usize) -> Document {
     document_of(layout)
 }
 
-/// The shortest of some times.
-fn fastest(mut work: impl FnMut() -> Duration) -> Duration {
-    (0..5).map(|_| work()).min().expect("several times")
-}
-
-/// As many edits of a size as touch the rows of the largest size once: other programs that run
-/// beside take the same share of each size.
-fn repeats(size: usize) -> u32 {
-    (SIZES[2] / size) as u32
-}
-
-/// Slope of the line through (log size, log time) with the least squared distances.
-fn exponent(times: [Duration; 3]) -> f64 {
-    let x = SIZES.map(|n| (n as f64).ln());
-    let y = times.map(|time| time.as_secs_f64().ln());
-    let [mean_x, mean_y] = [x, y].map(|values| values.iter().sum::<f64>() / 3.0);
-    let covariance: f64 = x
-        .iter()
-        .zip(y)
-        .map(|(x, y)| (x - mean_x) * (y - mean_y))
-        .sum();
-    covariance / x.iter().map(|x| (x - mean_x).powi(2)).sum::<f64>()
-}
-
-#[test]
-fn exponents_tell_linear_from_quadratic() {
-    let times = |power: i32| SIZES.map(|n| Duration::from_secs_f64((n as f64).powi(power) * 1e-9));
-    assert!((exponent(times(1)) - 1.0).abs() < 1e-6);
-    assert!((exponent(times(2)) - 2.0).abs() < 1e-6);
-}
-
 #[test]
 fn edits_of_all_rows_and_their_undo_grow_linearly() {
     let speed = |vehicle_type| PropertyRef {
@@ -74,7 +44,7 @@ fn edits_of_all_rows_and_their_undo_grow_linearly() {
         vehicle_type,
     };
     let all = |document: &Document| document.existing(Table::Paths).collect();
-    type Edit<'a> = Box<dyn Fn(&mut Document) + 'a>;
+    type Edit<'a> = Box<dyn Fn(&mut Document) + Sync + 'a>;
     let edits: [(&str, Edit<'_>); 4] = [
         (
             "set for all types",
@@ -115,29 +85,12 @@ fn edits_of_all_rows_and_their_undo_grow_linearly() {
         ),
     ];
     for (name, edit) in edits {
-        let mut undo = [Duration::ZERO; 3];
-        let mut done = [Duration::ZERO; 3];
-        for (size, (undo, done)) in SIZES.into_iter().zip(undo.iter_mut().zip(&mut done)) {
-            let mut document = chain(size);
-            *undo = Duration::MAX;
-            *done = fastest(|| {
-                let mut took = [Duration::ZERO; 2];
-                for _ in 0..repeats(size) {
-                    let started = Instant::now();
-                    edit(&mut document);
-                    took[0] += started.elapsed();
-                    let started = Instant::now();
-                    document.undo().unwrap();
-                    took[1] += started.elapsed();
-                }
-                *undo = (*undo).min(took[1] / repeats(size));
-                took[0] / repeats(size)
-            });
-        }
-        let (done, undo) = (exponent(done), exponent(undo));
-        assert!(
-            done < 1.4 && undo < 1.4,
-            "{name}: {done:.2}, undo {undo:.2}"
-        );
+        let made = |size| RefCell::new(chain(size));
+        let slope = exponent_of_time(SIZES, made, |document| {
+            let document = &mut document.borrow_mut();
+            edit(document);
+            document.undo().unwrap();
+        });
+        assert!(slope < 1.3, "{name}: exponent {slope:.2}");
     }
 }

@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use guideway_document::{Document, PointRef, SnapOptions, drawn_path};
-use guideway_layout::{PathRef, Value, WrittenCurve};
+use guideway_document::{Document, Elements, PointRef, SnapOptions, drawn_path};
+use guideway_layout::{Layout, PathRef, Quantity, Value, WrittenCurve};
 use guideway_spline::{Affine, Point};
 
 use crate::site::{document, document_of, ends, is_near, p, select, two_joined};
@@ -41,8 +41,8 @@ fn copies_keep_attributes_and_are_evenly_spaced() {
     assert!((2..9).all(|row| speed.get(row) == Some(Value::Float(1.0))));
 }
 
-#[test]
-fn copies_keep_the_written_curve_and_the_draw_rank() {
+/// Two lanes, the first one with a written curve, and that curve.
+fn written_lane() -> (Layout, WrittenCurve) {
     let mut layout = document(2).to_layout();
     let written = WrittenCurve {
         degree: 2,
@@ -51,6 +51,103 @@ fn copies_keep_the_written_curve_and_the_draw_rank() {
         weights: Some(vec![1.0, 2.0, 1.0]),
     };
     layout.paths.set_written_curve(0, written.clone());
+    (layout, written)
+}
+
+#[test]
+fn written_curves_follow_every_affine_map_and_its_undo() {
+    let (layout, written) = written_lane();
+    let mut document = document_of(layout);
+    let curve = |document: &Document, row| document.layout().paths.written_curve(row).cloned();
+    select(&mut document, [0]);
+    let turn = Affine::rotation(0.3, p(1.0, 2.0));
+    let mirror = Affine::mirror(p(3.0, 0.0), p(1.0, 1.0));
+    let stretch = Affine::scale(2.0, 0.5, p(1.0, 1.0));
+    for by in [turn, mirror, stretch] {
+        document.transform_selection("map", by).unwrap();
+        assert_eq!(curve(&document, 0), Some(written.mapped(by)));
+        document.undo().unwrap();
+        assert_eq!(curve(&document, 0), Some(written.clone()));
+        document.redo().unwrap();
+        assert_eq!(curve(&document, 0), Some(written.mapped(by)));
+        document.undo().unwrap();
+    }
+    // Pasted into the same document and into another one.
+    let clip = document.clip(&Elements::of_paths([0])).unwrap();
+    for mut target in [document, document_of(Layout::default())] {
+        for by in [turn, mirror] {
+            let pasted = target.paste(&clip, by, None).unwrap();
+            let row = pasted.paths.min().unwrap() as usize;
+            assert_eq!(curve(&target, row), Some(written.mapped(by)));
+            target.undo().unwrap();
+            target.redo().unwrap();
+            assert_eq!(curve(&target, row), Some(written.mapped(by)));
+        }
+    }
+}
+
+#[test]
+fn written_curves_are_reversed_but_not_bent() {
+    let (layout, written) = written_lane();
+    let mut document = document_of(layout);
+    let curve = |document: &Document| document.layout().paths.written_curve(0).cloned();
+    document.reverse(&[0].into_iter().collect()).unwrap();
+    assert_eq!(curve(&document), Some(written.reversed()));
+    let point = PointRef {
+        path: 0,
+        run: 0,
+        point: 1,
+    };
+    document.move_point(point, p(0.0, 2.0)).unwrap();
+    assert_eq!(curve(&document), None);
+    document.undo().unwrap();
+    assert_eq!(curve(&document), Some(written.reversed()));
+    document.undo().unwrap();
+    assert_eq!(curve(&document), Some(written));
+}
+
+#[test]
+fn stated_lengths_follow_the_curves() {
+    fn length(document: &Document, row: usize) -> Option<Value<'_>> {
+        document.layout().paths.attributes.value(row, "length")
+    }
+    let mut layout = two_joined().to_layout();
+    let lengths = &mut layout.paths.attributes;
+    // The drawing is to half the scale of the building; the second path states nothing.
+    lengths.set_quantity(0, "length", 20.0, Quantity::Length);
+    let mut document = document_of(layout);
+    let meters = |length_m| Some(Value::Float(length_m));
+    select(&mut document, [0]);
+    let turn = Affine::rotation(FRAC_PI_2, p(3.0, 4.0));
+    document.transform_selection("turn", turn).unwrap();
+    document.refine_selection().unwrap();
+    assert_eq!(length(&document, 0), meters(20.0));
+    document.undo().unwrap();
+    document.undo().unwrap();
+    // From a at 0 to b at 12 instead of 10.
+    document.move_node(1, p(12.0, 0.0)).unwrap();
+    assert_eq!(length(&document, 0), meters(24.0));
+    assert_eq!(length(&document, 1), None);
+    let stretch = Affine::scale(0.5, 0.5, p(0.0, 0.0));
+    document.transform_selection("scale", stretch).unwrap();
+    assert_eq!(length(&document, 0), meters(12.0));
+    let point = PointRef {
+        path: 0,
+        run: 0,
+        point: 1,
+    };
+    document.insert_point(point).unwrap();
+    let bent = PointRef { point: 2, ..point };
+    document.move_point(bent, p(3.0, 3.0)).unwrap();
+    assert!(matches!(length(&document, 0), Some(Value::Float(length_m)) if length_m > 12.1));
+    while document.undo().is_some() {}
+    assert_eq!(length(&document, 0), meters(20.0));
+    assert_eq!(length(&document, 1), None);
+}
+
+#[test]
+fn copies_keep_the_written_curve_and_the_draw_rank() {
+    let (mut layout, written) = written_lane();
     layout.paths.set_rank(vec![7, 3]);
     let mut document = document_of(layout);
     select(&mut document, [0]);

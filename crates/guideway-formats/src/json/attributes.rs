@@ -31,11 +31,12 @@ impl AttributeKey {
     /// Returns the target of a key.
     pub(crate) fn of<R: HasAttributes>(key: &str) -> Option<Self> {
         let known = R::NAMES.iter().enumerate().find_map(|(i, &name)| {
-            if name == key {
-                return Some(Self::Column(i));
+            let rest = name.strip_prefix(key)?;
+            match rest.as_bytes().first() {
+                None => Some(Self::Column(i)),
+                Some(b'.') => Some(Self::Group(&name[..key.len()])),
+                Some(_) => None,
             }
-            let (group, _) = name.split_once('.')?;
-            (group == key).then_some(Self::Group(group))
         });
         Some(known.unwrap_or_else(|| Self::Other(key.to_owned())))
     }
@@ -231,7 +232,10 @@ struct Group<'a, R> {
 impl<'a, R: HasAttributes> FromJson<'a> for Group<'a, R> {
     fn from_object<A: MapAccess<'a>>(mut object: A) -> Result<Field<Self>, A::Error> {
         let index = |key: &str| {
-            let is = |name: &&str| name.split_once('.').is_some_and(|(_, field)| field == key);
+            let is = |name: &&str| {
+                name.strip_suffix(key)
+                    .is_some_and(|rest| rest.ends_with('.'))
+            };
             R::NAMES.iter().position(is).ok_or_else(|| key.to_owned())
         };
         let (mut known, mut other) = (Vec::<AttributeField<'a>>::new(), Vec::new());

@@ -1,44 +1,34 @@
-//! Lazy arrays: parses a long array in batches on all cores, so that memory holds two batches
-//! beside the text.
+//! Lazy arrays: reads a long array part by part and parses it on all cores, so that memory holds
+//! the text and records of two batches.
 
 use std::cell::RefCell;
-use std::marker::PhantomData;
 use std::ops::Range;
 
+use guideway_layout::TextPosition;
 use rayon::prelude::*;
 use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
 use super::field::{Field, FromJson, JsonType};
-use super::parse::problem;
-use super::scan::{items_at, member, value_end};
-use crate::ReadError;
-use crate::source::Source;
+use super::scan::{items_at, member};
+use super::skeleton::LongArray;
+use crate::input::Input;
+use crate::{Problem, ReadError};
 
-/// Items per task of a thread.
-const TASK_ITEMS: usize = 64;
+/// Parts per batch.
+const BATCH_PARTS: usize = 64;
 
-/// Tasks per batch.
-const BATCH_TASKS: usize = 64;
-
-/// Bytes from which on a batch ends: its records take a few times their text.
-const BATCH_BYTES: usize = 4 << 20;
-
-/// The text of an array. Its syntax is valid; numbers and escapes are checked as items are parsed.
+/// The text of an array, of valid syntax.
 #[derive(Debug)]
-pub(crate) struct LazyArray<'t, T> {
-    text: &'t str,
-    item: PhantomData<T>,
+pub(crate) struct LazyArray<'t> {
+    pub(super) text: &'t str,
 }
 
-impl<'t, T> FromJson<'t> for LazyArray<'t, T> {
+impl<'t> FromJson<'t> for LazyArray<'t> {
     fn field<D: Deserializer<'t>>(deserializer: D) -> Result<Field<Self>, D::Error> {
         let text = <&'t RawValue>::deserialize(deserializer)?.get();
         Ok(match text.as_bytes().first() {
-            Some(b'[') => Field::Value(Self {
-                text,
-                item: PhantomData,
-            }),
+            Some(b'[') => Field::Value(Self { text }),
             Some(b'{') => Field::Wrong(JsonType::Object),
             Some(b'"') => Field::Wrong(JsonType::String),
             Some(b't' | b'f') => Field::Wrong(JsonType::Bool),
@@ -48,33 +38,28 @@ impl<'t, T> FromJson<'t> for LazyArray<'t, T> {
     }
 }
 
-impl<'t, T: FromJson<'t>> Field<LazyArray<'t, T>> {
-    /// Returns a cursor over the items; `file` is the whole text. A field that is not
-    /// an array has none.
-    pub(crate) fn items(&self, file: &'t str) -> LazyItems<'t, T> {
-        let range = self.get().map(|list| {
-            let start = list.text.as_ptr() as usize - file.as_ptr() as usize;
-            // Without the brackets.
-            start + 1..start + list.text.len() - 1
-        });
-        let range = range.unwrap_or_default();
-        LazyItems {
-            file,
-            at: range.start,
-            end: range.end,
-            index: 0,
-            item: PhantomData,
-        }
-    }
+/// A kind of record, whatever text it borrows from.
+pub(crate) trait RecordKind {
+    /// The record.
+    type Record<'t>: FromJson<'t> + Send;
 }
 
-/// Cursor over the items of an array.
-pub(crate) struct LazyItems<'t, T> {
-    file: &'t str,
-    at: usize,
-    end: usize,
-    index: usize,
-    item: PhantomData<T>,
+/// The reason why an array cannot be read.
+pub(crate) enum ArrayFault {
+    /// The input cannot be read.
+    Input(Problem),
+    /// The reader of its items fails.
+    Reader(ReadError),
+    /// The text between items is not valid.
+    Separator,
+    /// The item at a byte of the input is not valid.
+    Item(serde_json::Error, usize),
+}
+
+impl From<ReadError> for ArrayFault {
+    fn from(error: ReadError) -> Self {
+        Self::Reader(error)
+    }
 }
 
 /// The key of an array, and the places of its items.
@@ -82,9 +67,10 @@ type ArrayPlaces = (&'static str, Vec<Range<usize>>);
 
 /// An item of an array.
 pub(crate) struct LazyItem<'t, T> {
-    pub(crate) index: usize,
-    /// First byte in the file.
+    /// First byte in the input.
     pub(crate) start: usize,
+    /// Place of the first byte, as if its part were a text of its own.
+    pub(crate) position: TextPosition,
     pub(crate) text: &'t str,
     pub(crate) record: Field<T>,
     /// The places of the items of its arrays, by key, once one was asked for.
@@ -107,85 +93,170 @@ impl<'t, T> LazyItem<'t, T> {
     }
 }
 
-/// Items of an array that follow each other.
-pub(crate) struct Batch<'t, T> {
+/// A part of an array: items that follow each other.
+pub(crate) struct Part<'t, T> {
     pub(crate) items: Vec<LazyItem<'t, T>>,
-    /// Bytes of the text from the batch before to the end of this one.
+    /// Number of its bytes.
     pub(crate) bytes: usize,
+    /// Place behind its last byte, as if it were a text of its own.
+    pub(crate) end: TextPosition,
 }
 
-impl<'t, T: FromJson<'t> + Send> LazyItems<'t, T> {
-    /// Calls `map` for the batches in order. The other cores parse the next batch meanwhile.
+/// Memory for the texts of a batch.
+type Buffers = Vec<Vec<u8>>;
+
+impl LongArray {
+    /// Calls `map` for the parts in order, some at a time. The other cores parse the next ones
+    /// meanwhile.
     ///
     /// # Errors
     /// When an item is not valid, or `map` fails.
-    pub(crate) fn for_each_batch(
-        mut self,
-        source: Source<'_>,
-        mut map: impl FnMut(Batch<'t, T>) -> Result<(), ReadError> + Send,
-    ) -> Result<(), ReadError> {
-        let mut next = self.parse(&source)?;
-        while let Some(batch) = next {
-            let (mapped, parsed) = rayon::join(|| map(batch), || self.parse(&source));
+    pub(crate) fn for_each_batch<K: RecordKind>(
+        &self,
+        input: &Input<'_>,
+        mut map: impl for<'t> FnMut(Vec<Part<'t, K::Record<'t>>>) -> Result<(), ReadError> + Send,
+    ) -> Result<(), ArrayFault> {
+        let [mut of_this, mut of_next] = [0, 1].map(|_| vec![Vec::new(); BATCH_PARTS]);
+        let mut batches = Batches {
+            input,
+            borders: &self.borders,
+        };
+        let mut batch = batches.parse::<K>(&mut of_this)?;
+        // Unrolled twice: each of two texts lives as long as the records that borrow from it.
+        while !batch.is_empty() {
+            let (mapped, next) = rayon::join(|| map(batch), || batches.parse::<K>(&mut of_next));
             mapped?;
-            next = parsed?;
+            let after = next?;
+            let (mapped, next) = rayon::join(|| map(after), || batches.parse::<K>(&mut of_this));
+            mapped?;
+            batch = next?;
         }
         Ok(())
     }
+}
 
-    /// Parses the next items, on all cores; `None` at the end of the array.
-    fn parse(&mut self, source: &Source<'_>) -> Result<Option<Batch<'t, T>>, ReadError> {
-        let first = self.index;
-        let ranges = self.take_ranges();
-        self.index += ranges.len();
-        let end = ranges.last().map_or(self.at, |range| range.end);
-        let bytes = end - std::mem::replace(&mut self.at, end);
-        let parse = |(i, range): (usize, &Range<usize>)| {
-            let text = &self.file[range.clone()];
-            let record = serde_json::from_str(text);
-            record.map(|record| LazyItem {
-                index: first + i,
-                start: range.start,
-                text,
-                record,
-                arrays: RefCell::default(),
-            })
-        };
-        let chunks = ranges.par_chunks(TASK_ITEMS).enumerate();
-        let parsed: Vec<Vec<_>> = chunks
-            .map(|(chunk, ranges)| {
-                let from = chunk * TASK_ITEMS;
-                let items = ranges.iter().enumerate();
-                items.map(|(i, range)| parse((from + i, range))).collect()
-            })
-            .collect();
-        let mut items = Vec::with_capacity(ranges.len());
-        for (item, range) in parsed.into_iter().flatten().zip(&ranges) {
-            items.push(item.map_err(|error| {
-                let problem = problem(&error, self.file, range.start);
-                source.fail(problem)
-            })?);
+/// The batches of an array.
+struct Batches<'a> {
+    input: &'a Input<'a>,
+    /// First bytes of the parts that are left, and the byte behind the last one.
+    borders: &'a [usize],
+}
+
+impl<'a> Batches<'a> {
+    /// Parses the parts of the next batch, on all cores.
+    fn parse<'t, K: RecordKind>(
+        &mut self,
+        buffers: &'t mut Buffers,
+    ) -> Result<Vec<Part<'t, K::Record<'t>>>, ArrayFault>
+    where
+        'a: 't,
+    {
+        let count = self.borders.len().saturating_sub(1).min(BATCH_PARTS);
+        let (input, borders) = (self.input, &self.borders[..=count]);
+        self.borders = &self.borders[count..];
+        let is_end = self.borders.len() == 1;
+        let parts = borders.par_windows(2).zip(buffers).enumerate();
+        let parts = parts.map(|(i, (range, buffer))| {
+            let part = input.part(range[0]..range[1], buffer);
+            let part = part.map_err(ArrayFault::Input)?;
+            parse_part::<K>(part, range[0], is_end && i + 1 == count)
+        });
+        parts.collect()
+    }
+}
+
+/// Parses the items of a part, whose first byte is `start` in the input.
+fn parse_part<'t, K: RecordKind>(
+    part: &'t [u8],
+    start: usize,
+    is_last: bool,
+) -> Result<Part<'t, K::Record<'t>>, ArrayFault> {
+    let text = std::str::from_utf8(part).map_err(|_| ArrayFault::Separator)?;
+    let mut items = Vec::new();
+    let (mut position, mut counted) = (TextPosition::FIRST, 0);
+    let mut at = skip_blanks(part, 0);
+    while at < part.len() {
+        let mut values = serde_json::Deserializer::from_str(&text[at..]).into_iter();
+        let record = values.next().ok_or(ArrayFault::Separator)?;
+        let record = record.map_err(|error| ArrayFault::Item(error, start + at))?;
+        let end = at + values.byte_offset();
+        position = position.after(&part[counted..at]);
+        counted = at;
+        items.push(LazyItem {
+            start: start + at,
+            position,
+            text: &text[at..end],
+            record,
+            arrays: RefCell::default(),
+        });
+        at = skip_blanks(part, end);
+        let has_comma = part.get(at) == Some(&b',');
+        if has_comma {
+            at = skip_blanks(part, at + 1);
         }
-        Ok((!items.is_empty()).then_some(Batch { items, bytes }))
+        // A comma is between items and at the end of a part that others follow.
+        if has_comma == (is_last && at == part.len()) {
+            return Err(ArrayFault::Separator);
+        }
+    }
+    Ok(Part {
+        items,
+        bytes: part.len(),
+        end: position.after(&part[counted..]),
+    })
+}
+
+/// Returns the first byte from `at` on that is no white space.
+fn skip_blanks(text: &[u8], at: usize) -> usize {
+    let rest = text.get(at..).unwrap_or_default();
+    let blanks = rest.iter().take_while(|byte| b" \t\r\n".contains(byte));
+    at + blanks.count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    enum Number {}
+
+    impl RecordKind for Number {
+        type Record<'t> = f64;
     }
 
-    /// Returns the ranges of the next items in the file.
-    fn take_ranges(&self) -> Vec<Range<usize>> {
-        let mut ranges = Vec::new();
-        let mut at = self.at;
-        while ranges.len() < TASK_ITEMS * BATCH_TASKS && at - self.at < BATCH_BYTES {
-            let between = |b: &&u8| b" \t\r\n,".contains(b);
-            at += self.file.as_bytes()[at..self.end]
-                .iter()
-                .take_while(between)
-                .count();
-            if at >= self.end {
-                break;
-            }
-            let end = value_end(self.file, at).min(self.end);
-            ranges.push(at..end);
-            at = end;
+    fn numbers(text: &str, is_last: bool) -> Option<Vec<f64>> {
+        let part = parse_part::<Number>(text.as_bytes(), 0, is_last).ok()?;
+        let items = part.items.iter();
+        items.map(|item| item.record.get().copied()).collect()
+    }
+
+    #[test]
+    fn items_are_between_commas() {
+        for (text, is_last, expected) in [
+            ("1, 2 ,3", true, Some(vec![1.0, 2.0, 3.0])),
+            (" 1,\n2 ,", false, Some(vec![1.0, 2.0])),
+            (" \n", true, Some(Vec::new())),
+            ("1, 2,", true, None),
+            ("1, 2", false, None),
+            ("1 2", true, None),
+            ("1,, 2", true, None),
+            (",1", true, None),
+            ("1, 2]", true, None),
+            ("1, nonsense", true, None),
+        ] {
+            assert_eq!(numbers(text, is_last), expected, "{text}");
         }
-        ranges
+        assert!(parse_part::<Number>(b"1, \xFF", 0, true).is_err());
+    }
+
+    #[test]
+    fn items_know_their_lines() {
+        let part = parse_part::<Number>(b" 1,\n  2,3,\n", 5, false);
+        let Ok(part) = part else { panic!("valid") };
+        let places = part.items.iter().map(|item| {
+            let TextPosition { line, column } = item.position;
+            (item.start, line, column)
+        });
+        assert!(places.eq([(6, 1, 2), (11, 2, 3), (13, 2, 5)]));
+        assert_eq!((part.end.line, part.end.column), (3, 1));
     }
 }

@@ -28,7 +28,7 @@ struct Nesting {
 }
 
 /// Per byte outside of strings: the change of the depth, and the number of elements that begin.
-const STEPS: [(i8, u8); 256] = {
+pub(super) const STEPS: [(i8, u8); 256] = {
     let mut steps = [(0, 0); 256];
     steps[b'{' as usize] = (1, 1);
     steps[b'[' as usize] = (1, 1);

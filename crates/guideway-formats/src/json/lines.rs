@@ -8,6 +8,7 @@ use std::ops::Range;
 use guideway_layout::{Layout, LineIndex, Origin};
 
 use super::scan::{items_at, member};
+use super::skeleton::Skeleton;
 
 /// Returns the first byte of a part of a text; `None` for a text of its own.
 pub(crate) fn offset_in(text: &str, part: &str) -> Option<usize> {
@@ -65,6 +66,32 @@ pub(crate) fn find_lines(layout: &mut Layout, file: &str, document: Option<&str>
             .origin
             .filter(|origin| !matches!(origin, Origin::Byte(_)));
     }
+}
+
+/// Sets the line of each diagnostic about a part of the skeleton of the file.
+pub(crate) fn find_skeleton_lines(layout: &mut Layout, skeleton: &Skeleton) {
+    let starts = starts(layout, &skeleton.text);
+    for (diagnostic, start) in layout.diagnostics.iter_mut().zip(starts) {
+        let place = &mut diagnostic.place;
+        if let (None, Some(start)) = (place.line, start) {
+            *place = std::mem::take(place).at(skeleton.position(start));
+        }
+    }
+}
+
+/// The first byte in a text of the part of its value to which an element such as `.nodes[3].x`
+/// leads, or of the innermost part that exists.
+pub(crate) fn offset_of(text: &str, element: &str) -> usize {
+    let mut at = 0;
+    for step in element.split(['.', '[']).skip(1) {
+        let part = match step.strip_suffix(']').map(str::parse::<usize>) {
+            Some(Ok(index)) => items_at(text, at).into_iter().nth(index),
+            _ => member(text, at, step),
+        };
+        let Some(part) = part else { break };
+        at = part.start;
+    }
+    at
 }
 
 /// The first byte of the element of each diagnostic.

@@ -9,7 +9,7 @@
 //! | limits | text | nesting and element count within limits | `limits` |
 //! | split | text with several values | its objects | `documents` |
 //! | parse | text | a record of [`Field`]s, or a problem | `parse`, `record`, `field`, `attributes` |
-//! | items | text of a long array | one record at a time | `lazy_array` |
+//! | items | text with long arrays | text without them; their records, in batches | `skeleton`, `lazy_array` |
 //! | check | fields | values, diagnostics | `check`, `cell` |
 //! | lines | diagnostics, rows, text | lines and columns | `lines` |
 //! | write | values of a layout | text | `tree` |
@@ -28,6 +28,7 @@ mod lines;
 mod parse;
 mod record;
 mod scan;
+mod skeleton;
 mod splice;
 mod style;
 mod tree;
@@ -38,10 +39,11 @@ pub(crate) use self::cell::{Cell, CellKind, CellResult};
 pub(crate) use self::check::{field_place, items};
 pub(crate) use self::documents::{documents, payload};
 pub(crate) use self::field::{Field, FromJson, Key};
-pub(crate) use self::lazy_array::{LazyArray, LazyItem, LazyItems};
-pub(crate) use self::lines::{find_lines, offset_in, root_items};
-pub(crate) use self::parse::parse;
+pub(crate) use self::lazy_array::{ArrayFault, LazyArray, LazyItem, RecordKind};
+pub(crate) use self::lines::{find_lines, find_skeleton_lines, offset_in, offset_of, root_items};
+pub(crate) use self::parse::{parse, parse_checked, problem};
 pub(crate) use self::record::record;
 pub(crate) use self::scan::{items_at, member, push_compact};
+pub(crate) use self::skeleton::Skeleton;
 pub(crate) use self::splice::Splices;
 pub(crate) use self::tree::{Members, Tree, push_number};

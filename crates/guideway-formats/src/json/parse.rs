@@ -19,15 +19,18 @@ pub(crate) fn parse<'t, T: FromJson<'t>>(
 ) -> Result<Field<T>, ReadError> {
     limits::check(text, &source.options.limits).map_err(|p| source.fail(p))?;
     source.check_cancelled()?;
+    parse_checked(text).map_err(|error| source.fail(problem(&error, text, 0)))
+}
+
+/// Parses a whole text that is within the limits.
+pub(crate) fn parse_checked<'t, T: FromJson<'t>>(text: &'t str) -> serde_json::Result<Field<T>> {
     let mut parser = serde_json::Deserializer::from_str(text);
-    let value = Field::deserialize(&mut parser);
-    value
-        .and_then(|value| parser.end().map(|()| value))
-        .map_err(|error| source.fail(problem(&error, text, 0)))
+    let value = Field::deserialize(&mut parser)?;
+    parser.end().map(|()| value)
 }
 
 /// Converts a parser error to a problem. The parser has seen the part of `text` from byte `at` on.
-pub(super) fn problem(error: &serde_json::Error, text: &str, at: usize) -> Problem {
+pub(crate) fn problem(error: &serde_json::Error, text: &str, at: usize) -> Problem {
     let (line, column) = match (
         line_column(text, at),
         error.line() as u64,

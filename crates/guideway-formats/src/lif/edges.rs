@@ -2,7 +2,7 @@
 //! of their own.
 
 use std::borrow::Cow;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs};
@@ -10,7 +10,7 @@ use guideway_spline::{Point, Runs};
 use super::mapper::Mapper;
 use super::members::{EDGE_ID, OTHER};
 use super::model::{EDGE_PROPERTIES, Edge, PHYSICAL_LINE};
-use super::type_entries::{ColumnCell, TypeOfEntry, other_cell};
+use super::type_entries::{ColumnCell, TypesOfElement, other_cell};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::json::{Cell, Field, LazyItem, OtherMembers, field_place, items, member};
@@ -22,8 +22,7 @@ struct Curve<'r> {
     trajectory: Option<&'r Trajectory>,
     /// Key and index of its first entry; `None` if the edge has no entry.
     entry: Option<(&'static str, usize)>,
-    types: Vec<TypeOfEntry>,
-    names: HashSet<String>,
+    types: TypesOfElement,
     /// Index of the properties of its first entry.
     first_cells: usize,
 }
@@ -73,7 +72,7 @@ impl Mapper<'_> {
             });
         }
         for (i, curve) in entries.curves.iter().enumerate() {
-            let name = match (is_single, curve.types.as_slice()) {
+            let name = match (is_single, curve.types.list.as_slice()) {
                 (true, _) => Cow::Borrowed(id.as_ref()),
                 (false, []) => format!("{id} [{}]", i + 1).into(),
                 (false, types) => {
@@ -169,21 +168,17 @@ impl Mapper<'_> {
                     curves.push(Curve {
                         trajectory,
                         entry: Some((key, i)),
-                        types: Vec::new(),
-                        names: HashSet::new(),
+                        types: TypesOfElement::default(),
                         first_cells: entries.cells.len(),
                     });
                 }
                 let curve = &mut curves[index];
-                let (is_open, before) = (types.is_empty(), curve.types.len());
+                let (is_open, before) = (types.is_empty(), curve.types.list.len());
                 let first_name = types.first().cloned();
                 for name in types {
-                    if curve.names.insert(name.clone()) {
-                        let entry = entries.cells.len();
-                        curve.types.push(TypeOfEntry { name, entry });
-                    }
+                    curve.types.add(name, entries.cells.len());
                 }
-                if curve.types.len() == before && !(is_open && is_new) {
+                if curve.types.list.len() == before && !(is_open && is_new) {
                     self.report_surplus_entry(first_name.as_deref(), at_entry);
                     other.add_item(key, item.array_item(key, i));
                 }
@@ -200,8 +195,7 @@ impl Mapper<'_> {
             entries.curves.push(Curve {
                 trajectory: None,
                 entry: None,
-                types: Vec::new(),
-                names: HashSet::new(),
+                types: TypesOfElement::default(),
                 first_cells: 0,
             });
         }
@@ -245,7 +239,7 @@ impl Mapper<'_> {
             };
             runs.push_line(from, to);
         }
-        let vehicle_types: Vec<&str> = curve.types.iter().map(|of| of.name.as_str()).collect();
+        let vehicle_types: Vec<&str> = curve.types.list.iter().map(|of| of.name.as_str()).collect();
         let row = self.builder.push_path(&NewPath {
             id: name,
             runs: &runs,
@@ -295,12 +289,12 @@ impl Mapper<'_> {
         let tables = [Table::Paths, Table::PathTypes];
         let first_entry = self.builder.layout.paths.vehicle_types().entries(row).start;
         let first_cells = cells.get(curve.first_cells).map_or(&[][..], Vec::as_slice);
-        if curve.types.is_empty() {
+        if curve.types.list.is_empty() {
             for cell in first_cells {
                 cell.set(self, Table::Paths, row)?;
             }
         }
-        self.set_type_cells(tables, row, first_entry, &curve.types, cells)?;
+        self.set_type_cells(tables, row, first_entry, &curve.types.list, cells)?;
         let mut used = first_cells.iter();
         let is_line_guided = used.any(|cell| cell.column.starts_with(PHYSICAL_LINE));
         if is_line_guided && curve.trajectory.is_none() {

@@ -1,6 +1,6 @@
 //! LIF mapping: adds the levels of a file, with their nodes, edges and stations, to the layout.
 
-use guideway_layout::{Attributes, Code, Layout, Level, Place, Value};
+use guideway_layout::{Attributes, Code, Layout, Level, Place, TextPosition, Value};
 
 use super::mapper::Mapper;
 use super::members::{ORIGIN_OTHER, OTHER};
@@ -8,7 +8,9 @@ use super::model::{self, Origin, Root};
 use super::type_entries::{ColumnCell, other_cell};
 use crate::ReadError;
 use crate::builder::PlaceFn;
-use crate::json::{Field, FromJson, LazyItem, LazyItems, OtherMembers, field_place, items};
+use crate::json::{
+    ArrayFault, Field, LazyArray, LazyItem, OtherMembers, RecordKind, field_place, items, offset_of,
+};
 
 /// A layout record with its place in the file. Each maps to a level.
 struct LayoutEntry<'r, 'a> {
@@ -24,9 +26,45 @@ impl LayoutEntry<'_, '_> {
     }
 }
 
+/// An array of a layout: the kind of its records, and how they are mapped.
+trait MappedKind: RecordKind {
+    fn map<'t>(
+        mapper: &mut Mapper<'_>,
+        item: &LazyItem<'t, Self::Record<'t>>,
+        level: u32,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError>;
+}
+
+/// Defines the kind of an array by the record of its items and the function that maps them.
+macro_rules! kind {
+    ($name:ident, $record:ident, $map:ident) => {
+        enum $name {}
+
+        impl RecordKind for $name {
+            type Record<'t> = model::$record<'t>;
+        }
+
+        impl MappedKind for $name {
+            fn map<'t>(
+                mapper: &mut Mapper<'_>,
+                item: &LazyItem<'t, model::$record<'t>>,
+                level: u32,
+                at: PlaceFn<'_>,
+            ) -> Result<(), ReadError> {
+                mapper.$map(item, level, at)
+            }
+        }
+    };
+}
+
+kind!(NodeKind, Node, map_node);
+kind!(EdgeKind, Edge, map_edge);
+kind!(StationKind, Station, map_station);
+
 impl Mapper<'_> {
-    /// Maps the root object to a layout; `file` is the whole text, which the lazy arrays refer to.
-    pub(super) fn map<'t>(mut self, root: &Root<'t>, file: &'t str) -> Result<Layout, ReadError> {
+    /// Maps the root object, which the skeleton holds, to a layout.
+    pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ArrayFault> {
         let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
         self.map_version(root)?;
@@ -34,44 +72,72 @@ impl Mapper<'_> {
         let layouts = self.layouts(root)?;
         // All nodes come first: an edge may lead to a node of a later layout.
         for (level, entry) in layouts.iter().enumerate() {
-            self.builder.element_byte = None;
             self.map_level(entry)?;
-            let (nodes, list) = (entry.record.nodes.items(file), entry.list("nodes"));
-            self.map_items(nodes, &list, |mapper, node, at| {
-                mapper.map_node(node, level as u32, at)
-            })?;
+            let list = entry.list("nodes");
+            self.map_items::<NodeKind>(&entry.record.nodes, &list, level)?;
         }
         for (level, entry) in layouts.iter().enumerate() {
-            let (edges, list) = (entry.record.edges.items(file), entry.list("edges"));
-            self.map_items(edges, &list, |mapper, edge, at| {
-                mapper.map_edge(edge, level as u32, at)
-            })?;
-            let (stations, list) = (entry.record.stations.items(file), entry.list("stations"));
-            self.map_items(stations, &list, |mapper, station, at| {
-                mapper.map_station(station, level as u32, at)
-            })?;
+            let (edges, stations) = (entry.list("edges"), entry.list("stations"));
+            self.map_items::<EdgeKind>(&entry.record.edges, &edges, level)?;
+            self.map_items::<StationKind>(&entry.record.stations, &stations, level)?;
         }
-        self.builder.element_byte = None;
         self.set_node_types();
         Ok(self.finish(layouts.len()))
     }
 
     /// Maps the items of an array, whose place in the file is `list`.
-    fn map_items<'t, T: FromJson<'t> + Send>(
+    fn map_items<K: MappedKind>(
         &mut self,
-        items: LazyItems<'t, T>,
+        field: &Field<LazyArray<'_>>,
         list: &str,
-        map: impl Fn(&mut Self, &LazyItem<'t, T>, PlaceFn<'_>) -> Result<(), ReadError> + Sync,
-    ) -> Result<(), ReadError> {
-        items.for_each_batch(self.builder.source, |batch| {
-            self.builder.advance(batch.bytes)?;
-            for item in &batch.items {
-                let at = || Place::element(format!("{list}[{}]", item.index));
-                self.builder.element_byte = Some(self.text_start + item.start);
-                map(self, item, &at)?;
+        level: usize,
+    ) -> Result<(), ArrayFault> {
+        if field.get().is_none() {
+            return Ok(());
+        }
+        let array = self.skeleton.array(field).ok_or(ArrayFault::Separator)?;
+        let (mut index, mut start) = (0, array.first);
+        array.for_each_batch::<K>(self.input, |parts| {
+            self.builder
+                .advance(parts.iter().map(|part| part.bytes).sum())?;
+            for part in parts {
+                for item in &part.items {
+                    let at = || Place::element(format!("{list}[{index}]"));
+                    self.map_item::<K>(item, start.then(item.position), level as u32, &at)?;
+                    index += 1;
+                }
+                start = start.then(part.end);
             }
             Ok(())
-        })
+        })?;
+        self.builder.element_byte = None;
+        self.builder.element_position = None;
+        Ok(())
+    }
+
+    /// Maps an item at a position of the file, and finds the lines of the findings about it.
+    fn map_item<'t, K: MappedKind>(
+        &mut self,
+        item: &LazyItem<'t, K::Record<'t>>,
+        position: TextPosition,
+        level: u32,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
+        match self.keeps_text {
+            true => self.builder.element_byte = Some(item.start),
+            false => self.builder.element_position = Some(position),
+        }
+        let before = self.builder.layout.diagnostics.iter().count();
+        K::map(self, item, level, at)?;
+        for finding in self.builder.layout.diagnostics.iter_mut().skip(before) {
+            let place = &mut finding.place;
+            let within = place.element.strip_prefix(&at().element);
+            let byte = within.map_or(0, |element| offset_of(item.text, element));
+            let position = position.after(&item.text.as_bytes()[..byte]);
+            *place = std::mem::take(place).at(position);
+            place.origin = None;
+        }
+        Ok(())
     }
 
     fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {

@@ -11,6 +11,8 @@ use super::members::{
 };
 use super::version::Version;
 use crate::builder::Builder;
+use crate::input::Input;
+use crate::json::Skeleton;
 use crate::node_rows::NodeRows;
 use crate::source::Source;
 
@@ -31,8 +33,10 @@ pub(super) struct Mapper<'a> {
     /// Rows of the vehicle types with properties.
     type_rows: HashMap<String, usize>,
     pub(super) counts: Counts,
-    /// Bytes of the file before its text.
-    pub(super) text_start: usize,
+    pub(super) input: &'a Input<'a>,
+    pub(super) skeleton: &'a Skeleton,
+    /// True if the layout keeps the text, so that rows keep their bytes instead of their lines.
+    pub(super) keeps_text: bool,
 }
 
 /// Columns of the members of each object; `None` for a member that a version lacks.
@@ -83,11 +87,15 @@ pub(super) struct Counts {
 }
 
 impl<'a> Mapper<'a> {
-    /// Makes an empty layout for a file of `file_bytes` bytes, `text_start` of them before the
-    /// text.
-    pub(super) fn new(source: Source<'a>, file_bytes: usize, text_start: usize) -> Self {
+    /// Makes an empty layout for a file with its skeleton.
+    pub(super) fn new(
+        source: Source<'a>,
+        input: &'a Input<'a>,
+        skeleton: &'a Skeleton,
+        keeps_text: bool,
+    ) -> Self {
         Self {
-            builder: Builder::new(source, file_bytes),
+            builder: Builder::new(source, input.len()),
             columns: Columns::all(),
             nodes: NodeRows::default(),
             repeated_nodes: HashMap::new(),
@@ -96,7 +104,9 @@ impl<'a> Mapper<'a> {
             vehicle_types: HashSet::new(),
             type_rows: HashMap::new(),
             counts: Counts::default(),
-            text_start,
+            input,
+            skeleton,
+            keeps_text,
         }
     }
 

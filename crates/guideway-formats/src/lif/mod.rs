@@ -5,7 +5,7 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | read | text | records | `read`, `model` |
+//! | read | input | records | `read`, `model` |
 //! | map | records | layout | `mapper`, `map`, `nodes`, `edges`, `stations`, `type_entries`, `members` |
 //! | write | layout | text of a new file, losses | `write/` |
 //! | save | layout, text of its file | text with the edited parts, losses | `save/` |
@@ -23,6 +23,8 @@ mod type_entries;
 mod version;
 mod write;
 
+#[cfg(unix)]
+pub(crate) use self::read::MAX_KEPT_BYTES;
 pub(crate) use self::read::read;
 pub use self::version::Version;
 pub use self::write::{WriteOptions, write_layout};

@@ -10,6 +10,17 @@ use super::members::{
 use crate::json::{Field, FromJson, Key, LazyArray, record};
 use crate::trajectory::Trajectory;
 
+/// Keys of the long arrays of a layout.
+const ARRAYS: [&str; 3] = ["nodes", "edges", "stations"];
+
+/// Returns `true` if the array below these keys is a long one.
+pub(super) fn is_long_array(keys: &[&str]) -> bool {
+    match keys {
+        ["layouts", "[]", key] | ["origins", "[]", "layouts", "[]", key] => ARRAYS.contains(key),
+        _ => false,
+    }
+}
+
 type Text<'a> = Cow<'a, str>;
 type List<T> = Vec<Field<T>>;
 
@@ -34,9 +45,9 @@ record! {
     Layout<'a> {
         id: Text<'a> = "layoutId",
         name: Text<'a> = "layoutName",
-        nodes: LazyArray<'a, Node<'a>> = "nodes",
-        edges: LazyArray<'a, Edge<'a>> = "edges",
-        stations: LazyArray<'a, Station<'a>> = "stations",
+        nodes: LazyArray<'a> = "nodes",
+        edges: LazyArray<'a> = "edges",
+        stations: LazyArray<'a> = "stations",
     } with LAYOUT
 }
 

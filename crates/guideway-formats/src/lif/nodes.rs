@@ -1,11 +1,9 @@
 //! LIF nodes: maps a node with its properties per vehicle type.
 
-use std::collections::HashSet;
-
 use super::mapper::Mapper;
 use super::members::OTHER;
 use super::model::{NODE_PROPERTIES, Node, Position};
-use super::type_entries::{TypeOfEntry, other_cell};
+use super::type_entries::{TypesOfElement, other_cell};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::json::{LazyItem, OtherMembers, field_place, items};
@@ -64,8 +62,7 @@ impl Mapper<'_> {
         other: &mut OtherMembers,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
-        let mut types: Vec<TypeOfEntry> = Vec::new();
-        let mut seen = HashSet::new();
+        let mut types = TypesOfElement::default();
         let mut cells = Vec::new();
         for (v, list) in [&node.types_1, &node.types_2].into_iter().enumerate() {
             let key = NODE_PROPERTIES[v];
@@ -78,13 +75,11 @@ impl Mapper<'_> {
                 self.builder.check_repeated(entry.repeated, at);
                 let names = self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at)?;
                 let index = cells.len();
-                let before = types.len();
+                let before = types.list.len();
                 for name in names {
-                    if seen.insert(name.clone()) {
-                        types.push(TypeOfEntry { name, entry: index });
-                    }
+                    types.add(name, index);
                 }
-                if types.len() == before {
+                if types.list.len() == before {
                     self.report_surplus_entry(None, at);
                     other.add_item(key, item.array_item(key, i));
                     continue;
@@ -92,6 +87,7 @@ impl Mapper<'_> {
                 cells.push(self.type_cells(&entry.attributes, &self.columns.node_type[v], at)?);
             }
         }
+        let types = types.list;
         let names: Vec<&str> = types.iter().map(|of| of.name.as_str()).collect();
         self.node_types.push(&names);
         let first = self.node_types.entries(row).start;

@@ -2,7 +2,7 @@
 //! types of an element share once, on the element.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use guideway_layout::{Code, Property, TypeEntries, Value};
 
@@ -12,6 +12,9 @@ use super::model::{ANY_TYPE, RobotType, robot_name};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::json::{Attributes, Cell, CellResult, Field, OtherMembers, field_place, items};
+
+/// Column of the orientation of 1.0, which is one number.
+const ORIENTATION: &str = "vehicleOrientation";
 
 /// Index of the placeholder for all vehicle types.
 const ANY_INDEX: u32 = u32::MAX;
@@ -28,6 +31,33 @@ pub(super) struct ColumnCell<'a> {
 pub(super) struct TypeOfEntry {
     pub(super) name: String,
     pub(super) entry: usize,
+}
+
+/// The vehicle types of an element, each once.
+#[derive(Default)]
+pub(super) struct TypesOfElement {
+    pub(super) list: Vec<TypeOfEntry>,
+    /// The names of a long list.
+    names: HashSet<String>,
+}
+
+impl TypesOfElement {
+    /// Adds a type, unless it is known.
+    pub(super) fn add(&mut self, name: String, entry: usize) {
+        const LONG: usize = 8;
+        let mut known = self.list.iter().map(|of| &of.name);
+        let is_new = if self.list.len() < LONG {
+            known.all(|known| *known != name)
+        } else {
+            if self.names.is_empty() {
+                self.names = known.cloned().collect();
+            }
+            self.names.insert(name.clone())
+        };
+        if is_new {
+            self.list.push(TypeOfEntry { name, entry });
+        }
+    }
 }
 
 impl ColumnCell<'_> {
@@ -289,22 +319,45 @@ pub(super) fn other_cell(other: OtherMembers, column: &'static str) -> Option<Co
 /// The cell of a value in the form that both versions share: a list of one orientation is a number,
 /// and choices are spelled as in VDA 5050.
 fn normal(column: Column, cell: Cell<'_>) -> ColumnCell<'_> {
-    let (name, cell) = match (column.member, cell) {
+    let of_column = |cell| ColumnCell {
+        column: column.name,
+        quantity: column.quantity,
+        cell,
+    };
+    match (column.member, cell) {
         ("mobileRobotOrientations", Cell::Json(list)) => {
             let numbers = serde_json::from_str::<Vec<f64>>(&list);
             match numbers.as_deref() {
-                Ok([one]) => ("vehicleOrientation", Cell::Number(*one)),
-                _ => (column.name, Cell::Json(list)),
+                Ok([one]) => ColumnCell {
+                    column: ORIENTATION,
+                    quantity: Property::named(ORIENTATION).and_then(Property::quantity),
+                    cell: Cell::Number(*one),
+                },
+                _ => of_column(Cell::Json(list)),
             }
         }
         (REFERENCE_POINT, Cell::Text(text)) if text == "KINEMATIC_CENTER" => {
-            (column.name, Cell::Text("KINEMATICCENTER".into()))
+            of_column(Cell::Text("KINEMATICCENTER".into()))
         }
-        (_, cell) => (column.name, cell),
-    };
-    ColumnCell {
-        column: name,
-        quantity: Property::named(name).map_or(column.quantity, Property::quantity),
-        cell,
+        (_, cell) => of_column(cell),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_and_long_lists_have_each_type_once() {
+        let mut types = TypesOfElement::default();
+        for round in 0..3 {
+            for i in 0..20 {
+                types.add(format!("t{}", i % (7 + 6 * round)), round);
+            }
+        }
+        let names: Vec<_> = types.list.iter().map(|of| of.name.clone()).collect();
+        let expected: Vec<_> = (0..19).map(|i| format!("t{i}")).collect();
+        assert_eq!(names, expected);
+        assert_eq!((types.list[6].entry, types.list[7].entry), (0, 1));
     }
 }

@@ -1,6 +1,6 @@
 //! The law itself: writes a layout, reads it back, and holds the differences against the losses.
 
-use guideway_formats::{ReadOptions, Target, WriteProblem, read_file};
+use guideway_formats::{Losses, ReadOptions, Target, WriteProblem, read_file};
 use guideway_layout::{CompareOptions, Layout, differences};
 
 /// A difference that no loss lists, or a loss without a difference.
@@ -38,29 +38,39 @@ fn tolerance_m(target: Target) -> f64 {
 
 /// Returns all breaches of the law by one conversion.
 pub(crate) fn breaches(name: &str, layout: &Layout, target: Target) -> Vec<Breach> {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let extension = target.extensions().first().unwrap_or(&".lif.json");
-    let file = folder.path().join(format!("layout{extension}"));
     let breach = |message: String| Breach {
         target,
         layout: name.to_owned(),
         message,
     };
-    let losses = match target.write_file(layout, &file) {
-        Ok(losses) => losses,
-        // A refusal that names the reason: nothing was written.
-        Err(error) if matches!(error.problem, WriteProblem::NotARoute { .. }) => {
-            return Vec::new();
-        }
-        Err(error) => return vec![breach(format!("cannot be written: {error}"))],
-    };
-    let again = match read_file(&file, &ReadOptions::default()) {
-        Ok(again) => again,
-        Err(error) => return vec![breach(format!("cannot be read back: {error}"))],
+    let (losses, again) = match converted(layout, target) {
+        Ok(Some(converted)) => converted,
+        Ok(None) => return Vec::new(),
+        Err(message) => return vec![breach(message)],
     };
     let listed: Vec<String> = losses.iter().map(|loss| loss.what.clone()).collect();
     let found = compare(layout, &again, &listed, tolerance_m(target));
     found.into_iter().map(breach).collect()
+}
+
+/// Writes a layout and reads it back, with its losses; `None` if it is no route, which the target
+/// needs.
+pub(crate) fn converted(
+    layout: &Layout,
+    target: Target,
+) -> Result<Option<(Losses, Layout)>, String> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let extension = target.extensions().first().unwrap_or(&".lif.json");
+    let file = folder.path().join(format!("layout{extension}"));
+    let losses = match target.write_file(layout, &file) {
+        Ok(losses) => losses,
+        // A refusal that names the reason: nothing was written.
+        Err(error) if matches!(error.problem, WriteProblem::NotARoute { .. }) => return Ok(None),
+        Err(error) => return Err(format!("cannot be written: {error}")),
+    };
+    let again = read_file(&file, &ReadOptions::default());
+    let again = again.map_err(|error| format!("cannot be read back: {error}"))?;
+    Ok(Some((losses, again)))
 }
 
 /// Returns the differences of two layouts that are not listed, and the listed ones that are none.

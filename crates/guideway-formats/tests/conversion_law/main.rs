@@ -68,6 +68,26 @@ fn random_layouts_lose_what_is_listed() {
     assert_none(found.collect());
 }
 
+/// A layout that a reader of each format made has more, and elsewhere, than one from memory.
+#[test]
+fn random_files_of_every_format_lose_what_is_listed() {
+    let found = seeds(120).into_par_iter().flat_map_iter(|seed: u64| {
+        let source = Target::ALL[seed as usize % Target::ALL.len()];
+        let converted = law::converted(&random_layout(seed), source);
+        let name = format!("random {} file {seed}", source.id());
+        let found = match converted {
+            Ok(Some((_, layout))) => Target::ALL
+                .iter()
+                .flat_map(|&target| breaches(&name, &layout, target))
+                .collect(),
+            // The other laws say so.
+            Ok(None) | Err(_) => Vec::new(),
+        };
+        found.into_iter()
+    });
+    assert_none(found.collect());
+}
+
 /// An order holds one route, which random layouts rarely are: a single path is one.
 #[test]
 fn random_routes_lose_what_is_listed() {

@@ -204,11 +204,10 @@ fn lists_what_does_not_come_back() {
     let mut layout = site();
     let mut runs = Runs::default();
     arc_to_runs(Point::new(0.0, 1.0), 5.0, 0.0, 1.0, 1e-4, &mut runs);
-    layout.paths.replace_curves(&[0], &{
-        let mut geometry = guideway_layout::Geometry::default();
-        geometry.push(&runs);
-        geometry
-    });
+    let mut geometry = guideway_layout::Geometry::default();
+    geometry.push(&runs);
+    let written = guideway_layout::WrittenCurves::default();
+    layout.paths.replace_curves(&[0], &geometry, &written);
     layout.paths.push(&NewPath {
         id: "without nodes",
         runs: &runs,

@@ -4,7 +4,7 @@ use guideway_spline::Point;
 use rayon::prelude::*;
 
 use super::cells::{Cells, Table};
-use super::change::{Change, ChangedValue, Changes, ElementChange};
+use super::change::{Change, ChangeGroup, ChangedValue, Changes, ElementChanges};
 use super::curve_distance::{are_near, greatest_distance_m};
 use super::difference::{CompareOptions, Differences};
 use super::element_pairs::level_id;
@@ -21,8 +21,9 @@ const TASK_PAIRS: usize = 1024;
 /// Elements are matched by identifier, in order among equal ones. Those that remain were renamed if
 /// one element is at their place: a node or station at the same position, a path with the same ends
 /// and middle, on the same level. They were renamed and moved if one element alone fits: a node at
-/// the same ends of paths, between the same nodes or within a meter; a path between the same nodes;
-/// a station with the same nodes or within a meter.
+/// the same ends of paths, between the same nodes or within a meter; a path between the same nodes,
+/// or one without nodes with the same shape within its length; a station with the same nodes or
+/// within a meter.
 ///
 /// ```
 /// use guideway_layout::{Change, CompareOptions, Layout, changes};
@@ -33,13 +34,14 @@ const TASK_PAIRS: usize = 1024;
 /// let mut new = old.clone();
 /// new.nodes.set_position_m(0, Point::new(0.0, 2.0));
 /// let found = changes(&old, &new, &CompareOptions::default());
-/// assert_eq!(found.elements[0].change, Change::Moved { distance_m: 2.0 });
+/// let change = found.elements.iter().next().map(|of| of.change);
+/// assert_eq!(change, Some(Change::Moved { distance_m: 2.0 }));
 /// ```
 pub fn changes<'a>(old: &'a Layout, new: &'a Layout, options: &CompareOptions) -> Changes<'a> {
     let layouts = [old, new];
     let pairs = ElementPairs::of(layouts, options);
     let mut columns = Vec::new();
-    let mut elements = Vec::new();
+    let mut elements = ElementChanges::default();
     for (kind, of_kind) in [
         (ElementKind::Node, &pairs.nodes),
         (ElementKind::Path, &pairs.paths),
@@ -81,36 +83,26 @@ struct Lister<'a> {
 
 impl Lister<'_> {
     /// Appends the changes of all pairs, then the elements without a partner.
-    fn add_to(&self, pairs: &RowPairs, all: &mut Vec<ElementChange>) {
+    fn add_to(&self, pairs: &RowPairs, all: &mut ElementChanges) {
         let rows: Vec<(u32, u32)> = pairs.pairs().collect();
         let of_task = |rows: &[(u32, u32)]| {
-            let mut found = Vec::new();
+            let mut found = ChangeGroup::new(self.kind);
             for &(p, q) in rows {
                 let rows = [Some(p), Some(q)];
-                self.compare([p, q], &mut |change| {
-                    found.push(ElementChange::new(self.kind, rows, change));
-                });
+                self.compare([p, q], &mut |change| found.push(rows, change));
             }
-            found
+            found.shrunk()
         };
         let tasks = rows.par_chunks(TASK_PAIRS).map(of_task);
-        let lists: Vec<Vec<ElementChange>> = tasks.collect();
-        all.reserve(lists.iter().map(Vec::len).sum());
-        lists.into_iter().for_each(|list| all.extend(list));
+        all.extend(tasks.collect::<Vec<ChangeGroup>>());
+        let mut rest = ChangeGroup::new(self.kind);
         for row in pairs.removed() {
-            all.push(ElementChange::new(
-                self.kind,
-                [Some(row), None],
-                Change::Removed,
-            ));
+            rest.push([Some(row), None], Change::Removed);
         }
         for &row in pairs.added() {
-            all.push(ElementChange::new(
-                self.kind,
-                [None, Some(row)],
-                Change::Added,
-            ));
+            rest.push([None, Some(row)], Change::Added);
         }
+        all.extend([rest.shrunk()]);
     }
 
     /// Finds the changes of one element.

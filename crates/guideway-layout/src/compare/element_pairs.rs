@@ -7,9 +7,9 @@ use super::row_pairs::RowPairs;
 use crate::Layout;
 
 /// A place as a key: a position in steps of the tolerance.
-type PlaceKey = [i64; 2];
+pub(super) type PlaceKey = [i64; 2];
 
-fn place_key(position_m: Point<f64>, options: &CompareOptions) -> PlaceKey {
+pub(super) fn place_key(position_m: Point<f64>, options: &CompareOptions) -> PlaceKey {
     // Coarser than the tolerance, so that rounding rarely separates equal places.
     let step_m = (options.tolerance_m * 16.0).max(1e-6);
     [position_m.x, position_m.y].map(|c| (c / step_m).round() as i64)

@@ -23,7 +23,7 @@ mod paths;
 mod places;
 mod row_pairs;
 
-pub use self::change::{Change, ChangedValue, Changes, ElementChange};
+pub use self::change::{Change, ChangedValue, Changes, ElementChange, ElementChanges};
 pub use self::change_values::ChangedTexts;
 pub use self::changes::changes;
 pub use self::difference::{CompareOptions, Difference};

@@ -6,14 +6,16 @@ use std::collections::{HashMap, HashSet};
 use guideway_spline::Point;
 
 use super::difference::CompareOptions;
-use super::element_pairs::{level_id, match_nodes, match_paths, match_stations};
+use super::element_pairs::{
+    PlaceKey, level_id, match_nodes, match_paths, match_stations, place_key,
+};
 use super::row_pairs::RowPairs;
 use crate::Layout;
 
 /// Largest distance by which an element moves that is known by its place only, in meters.
 const REACH_M: f64 = 1.0;
 
-/// Elements in a square of [`REACH_M`] beyond which none is known by its place.
+/// Elements in a square of [`REACH_M`], or of one shape, beyond which none is known by its place.
 const MAX_IN_CELL: usize = 64;
 
 /// Pairs of nodes, paths and stations.
@@ -44,6 +46,7 @@ impl ElementPairs {
         }
         if pairs.paths.has_rest() {
             pairs.match_paths_by_nodes(layouts);
+            pairs.match_paths_by_shape(layouts, options);
         }
         if pairs.stations.has_rest() {
             pairs.match_stations_by_nodes(layouts);
@@ -112,6 +115,41 @@ impl ElementPairs {
         );
     }
 
+    /// Matches paths without nodes of the same shape, on the same level, that are nearer to each
+    /// other than they are long.
+    fn match_paths_by_shape(&mut self, layouts: [&Layout; 2], options: &CompareOptions) {
+        let mut rows: HashMap<ShapeKey<'_>, [Vec<u32>; 2]> = HashMap::new();
+        for row in self.paths.removed() {
+            let key = shape_key(layouts[0], row, options);
+            key.into_iter()
+                .for_each(|key| rows.entry(key).or_default()[0].push(row));
+        }
+        for &row in self.paths.added() {
+            if let Some(rows) =
+                shape_key(layouts[1], row, options).and_then(|key| rows.get_mut(&key))
+            {
+                rows[1].push(row);
+            }
+        }
+        let mut candidates = Vec::new();
+        for [of_a, of_b] in rows.into_values() {
+            if of_a.len().max(of_b.len()) > MAX_IN_CELL {
+                continue;
+            }
+            for &a in &of_a {
+                let path = layouts[0].paths.get(a as usize);
+                let reach_m = path.length_m().max(REACH_M);
+                let is_near = |b: &&u32| {
+                    let other = layouts[1].paths.get(**b as usize);
+                    let starts = path.ends().zip(other.ends());
+                    starts.is_some_and(|((p, _), (q, _))| p.distance(q) <= reach_m)
+                };
+                candidates.extend(of_b.iter().filter(is_near).map(|&b| (a, b)));
+            }
+        }
+        self.paths.match_candidates(candidates);
+    }
+
     /// Matches stations with the same nodes.
     fn match_stations_by_nodes(&mut self, [a, b]: [&Layout; 2]) {
         let old_rows = self.nodes.inverse(b.nodes.len());
@@ -129,6 +167,28 @@ impl ElementPairs {
             |row| key(b.stations.nodes(row), &|node| old_rows[node as usize]),
         );
     }
+}
+
+/// The shape of a path, whatever its place: the lengths of its runs, its control points from the
+/// first one on, and its level.
+type ShapeKey<'a> = (Vec<usize>, Vec<PlaceKey>, Option<&'a str>);
+
+/// The shape of a path; `None` if it has a node or no curve.
+fn shape_key<'a>(layout: &'a Layout, row: u32, options: &CompareOptions) -> Option<ShapeKey<'a>> {
+    let path = layout.paths.get(row as usize);
+    if path.start_node().or(path.end_node()).is_some() {
+        return None;
+    }
+    let first = path.runs().next()?.get(0);
+    let points = path.runs().flat_map(|run| {
+        let points: Vec<_> = run.iter().collect();
+        points.into_iter().map(|p| place_key(p - first, options))
+    });
+    Some((
+        path.runs().map(|run| run.len()).collect(),
+        points.collect(),
+        level_id(layout, path.level()),
+    ))
 }
 
 /// The old rows of the neighbors of each node of the rest, in order, each with the side of the path

@@ -1,13 +1,10 @@
 //! Edits of paths: sets columns, and the properties of single paths.
 
-use guideway_spline::{Affine, Point};
+use guideway_spline::Affine;
 
 use super::table::{NONE, Paths};
 use crate::optional_column::{column_for, set};
-use crate::{Direction, Geometry, OwnStyle, TypeEntries, WrittenCurve};
-
-/// Largest deviation of runs that are the same but for a shift, in meters: rounding errors.
-const SAME_SHIFT_M: f64 = 1e-9;
+use crate::{Direction, Geometry, OwnStyle, TypeEntries, WrittenCurve, WrittenCurves};
 
 impl Paths {
     /// Sets the stroke width of every path, in meters; NaN where the rule of the view decides.
@@ -104,11 +101,12 @@ impl Paths {
         self.geometry.transform(paths, by);
     }
 
-    /// Replaces the curves of some paths: see [`Geometry::replace_all`].
-    pub fn replace_curves(&mut self, paths: &[u32], with: &Geometry) {
+    /// Replaces the curves of some paths: see [`Geometry::replace_all`]. `written` has the curves
+    /// among them that are kept as written, by their indices.
+    pub fn replace_curves(&mut self, paths: &[u32], with: &Geometry, written: &WrittenCurves) {
         self.geometry.replace_all(paths, with);
-        for &path in paths {
-            self.written_curves.set(path as usize, None);
+        for (i, &path) in paths.iter().enumerate() {
+            self.written_curves.set(path as usize, written.shared(i));
         }
     }
 
@@ -117,35 +115,14 @@ impl Paths {
         self.written_curves.set(path, Some(curve.into()));
     }
 
-    /// Copies the draw rank of a path to another one, and its written curve, if the runs of the
-    /// other one are the same but for a shift.
+    /// Copies the draw rank of a path to another one.
     ///
     /// # Panics
     /// When `to` is not below [`Self::len`].
-    pub fn copy_look(&mut self, from: usize, to: usize) {
+    pub fn copy_rank(&mut self, from: usize, to: usize) {
         if let Some(ranks) = &mut self.rank {
             ranks[to] = ranks[from];
         }
-        if let Some(curve) = self.written_curves.shared(from)
-            && let Some(shift) = self.shift_m(from, to)
-        {
-            self.written_curves.set(to, Some(curve));
-            self.written_curves
-                .transform(to, Affine::translation(shift));
-        }
-    }
-
-    /// The shift from the runs of a path to those of another one; `None` if they differ otherwise.
-    fn shift_m(&self, from: usize, to: usize) -> Option<Point<f64>> {
-        let points = |path: usize| {
-            let runs = self.get(path).runs();
-            runs.flat_map(|run| run.iter().collect::<Vec<_>>())
-        };
-        let lengths = |path: usize| self.get(path).runs().map(|run| run.len());
-        let shift = points(to).next()? - points(from).next()?;
-        let mut pairs = points(from).zip(points(to));
-        let is_shifted = pairs.all(|(p, q)| (p + shift).distance(q) <= SAME_SHIFT_M);
-        (is_shifted && lengths(from).eq(lengths(to))).then_some(shift)
     }
 
     /// Sets the style of one path; properties that are `None` follow the rule of the view.

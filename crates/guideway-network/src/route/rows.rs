@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use guideway_layout::{Direction, Layout, NewPath, Provenance, element_name};
+use guideway_layout::{
+    Direction, Layout, NewPath, Provenance, WrittenCurve, WrittenCurves, element_name,
+};
 use guideway_spline::{Point, Runs};
 
 use super::router::Router;
@@ -186,9 +188,13 @@ fn turn_around(route: &mut Layout, path: usize, nodes: &HashMap<u32, u32>, row: 
         runs: &turned,
         ..NewPath::default()
     });
+    let mut written = WrittenCurves::default();
+    let curve = route.paths.written_curve(path).map(WrittenCurve::reversed);
+    written.set(0, curve.map(Into::into));
+    let geometry = one.paths.geometry();
     route
         .paths
-        .replace_curves(&[path as u32], one.paths.geometry());
+        .replace_curves(&[path as u32], geometry, &written);
     let node = |row: u32| nodes.get(&row).copied();
     route.paths.set_nodes(path, node(row.from), node(row.to));
 }

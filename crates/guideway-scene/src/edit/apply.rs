@@ -48,10 +48,12 @@ impl Scene {
     fn inverse_of(&self, edit: &Edit) -> Edit {
         match edit {
             Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => {
-                let rows = paths.iter().map(|&path| path as usize);
+                let rows: Vec<usize> = paths.iter().map(|&path| path as usize).collect();
+                let of_layout = &self.layout.paths;
                 Edit::Reshape {
                     paths: Arc::clone(paths),
-                    curves: Arc::new(self.layout.paths.geometry().select(rows)),
+                    written: Arc::new(of_layout.written_curves().select(&rows)),
+                    curves: Arc::new(of_layout.geometry().select(rows)),
                 }
             }
             Edit::Restyle(styles) => {
@@ -85,9 +87,13 @@ impl Scene {
                 layout.paths.transform(rows, *by);
                 self.invalidate_bounds();
             }
-            Edit::Reshape { paths, curves } => {
+            Edit::Reshape {
+                paths,
+                curves,
+                written,
+            } => {
                 let layout = Arc::make_mut(&mut self.layout);
-                layout.paths.replace_curves(paths, curves);
+                layout.paths.replace_curves(paths, curves, written);
                 self.invalidate_bounds();
             }
             Edit::Restyle(styles) => self.restyle(styles),
@@ -149,7 +155,7 @@ impl Scene {
                 layout.paths.attributes.copy_row(from as usize, row);
                 let entries = layout.paths.vehicle_types_mut();
                 entries.copy_values(from as usize, row);
-                layout.paths.copy_look(from as usize, row);
+                layout.paths.copy_rank(from as usize, row);
             }
         }
         let rows = self.row_count();

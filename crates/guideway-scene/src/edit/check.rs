@@ -41,8 +41,13 @@ impl Edit {
                     Err(EditError::OutOfBounds { path: Some(path) })
                 })
             }
-            Self::Reshape { paths, curves } => {
-                if paths.len() != curves.path_count() {
+            Self::Reshape {
+                paths,
+                curves,
+                written,
+            } => {
+                let last_written = written.iter().last().map(|(place, _)| place);
+                if paths.len() != curves.path_count() || last_written >= Some(paths.len()) {
                     return Err(EditError::CurveCountMismatch);
                 }
                 let outside = curves.first_out_of_range(MAX_COORDINATE_M);

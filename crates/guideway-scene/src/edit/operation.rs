@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Direction, Geometry, OwnStyle};
+use guideway_layout::{Direction, Geometry, OwnStyle, WrittenCurves};
 use guideway_spline::{Affine, Runs};
 
 use super::tables::TableEdit;
@@ -25,6 +25,8 @@ pub enum Edit {
         paths: Arc<[u32]>,
         /// Their new curves, in the same order.
         curves: Arc<Geometry>,
+        /// Those of them that are kept as written, by their places in this order.
+        written: Arc<WrittenCurves>,
     },
     /// Replaces the own width and color of paths. A scene colored by a column keeps its colors.
     Restyle(Arc<[(u32, OwnStyle)]>),
@@ -86,7 +88,11 @@ impl Edit {
     pub fn heap_bytes(&self) -> usize {
         match self {
             Self::Transform { paths, .. } => size_of_val(&**paths),
-            Self::Reshape { paths, curves } => size_of_val(&**paths) + curves.heap_bytes(),
+            Self::Reshape {
+                paths,
+                curves,
+                written,
+            } => size_of_val(&**paths) + curves.heap_bytes() + written.heap_bytes(),
             Self::Restyle(styles) => size_of_val(&**styles),
             Self::SetStates(states) => size_of_val(&**states),
             Self::Insert(paths) => {

@@ -51,7 +51,7 @@ impl Changed {
         let rows = |snapshot: &Snapshot| Table::ALL.map(|of| snapshot.kept(of));
         let (old_rows, new_rows) = (rows(other), rows(active));
         let mut changed = Self::default();
-        for change in &found.elements {
+        for change in found.elements.iter() {
             let Some(of) = table(change.element) else {
                 continue;
             };
@@ -73,7 +73,7 @@ impl Changed {
             set.rows_mut(of).insert(row);
             changed.lines.push(ChangeLine {
                 kind,
-                text: text_of(of, &found, change),
+                text: text_of(of, &found, &change),
                 element: Element::new(of, row),
             });
         }

@@ -20,9 +20,10 @@ use guideway_spline::construct::{self, ConstructError};
 
 use super::arms::{Arm, ArmPath};
 use super::error::ShapeError;
-use super::plan::{Plan, length_m, properties_of, stated_length_m};
+use super::plan::{Plan, properties_of};
 use crate::change::Change;
 use crate::document::Document;
+use crate::edit::lengths::{length_m, stated_length_m};
 use crate::elements::Elements;
 
 /// Largest distance between an arc and its cubics, in meters.

@@ -7,10 +7,11 @@ use guideway_scene::Table;
 use guideway_spline::construct;
 
 use super::error::ShapeError;
-use super::plan::{LENGTH, Plan, stated_length_m};
+use super::plan::Plan;
 use crate::PathSet;
 use crate::document::Document;
 use crate::edit::curves::runs_of;
+use crate::edit::lengths::{LENGTH, stated_length_m};
 use crate::elements::Elements;
 
 /// Largest gap between two paths at one node, in meters. Files round positions to a millimeter, and

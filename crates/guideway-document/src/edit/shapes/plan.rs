@@ -1,23 +1,16 @@
 //! [`Plan`]: the parts of a step, collected in any order, as changes in the right one.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
-use guideway_layout::{Member, PathRef, Value, Values};
+use guideway_layout::{Member, PathRef};
 use guideway_scene::{Edit, Insertion, NewNode, PathState, Table, TableEdit};
-use guideway_spline::{Point, Runs, run_length};
+use guideway_spline::{Point, Runs};
 
 use crate::change::Change;
 use crate::document::Document;
-use crate::edit::curves::runs_of;
+use crate::edit::lengths::set_lengths_m;
 use crate::edit::names::Names;
 use crate::edit::perform::{reshape, set_states};
-
-/// Column of the length that a file states for a path.
-pub(super) const LENGTH: &str = "length";
-
-/// Accuracy of lengths, in meters.
-const LENGTH_TOLERANCE_M: f64 = 1e-6;
 
 /// A step being planned for a document, which it does not change.
 pub(super) struct Plan<'d> {
@@ -169,23 +162,12 @@ impl<'d> Plan<'d> {
         self.ends.get(&path).copied().unwrap_or(old)
     }
 
-    /// Scales the stated lengths of paths with new curves.
-    fn scale_lengths(&mut self) {
-        for (&path, runs) in &self.curves {
-            let Some(stated_m) = stated_length_m(self.document, path) else {
-                continue;
-            };
-            let row = self.document.layout().paths.get(path as usize);
-            let share = length_m(runs) / length_m(&runs_of(row));
-            if share.is_finite() {
-                self.lengths_m.entry(path).or_insert(stated_m * share);
-            }
-        }
-    }
-
     /// The changes, each after those on which it depends.
     pub(super) fn changes(mut self) -> Vec<Change> {
-        self.scale_lengths();
+        let curves = self.curves.iter().map(|(&path, runs)| (path, runs));
+        for (path, length_m) in self.document.scaled_lengths_m(curves) {
+            self.lengths_m.entry(path).or_insert(length_m);
+        }
         let members = self.members();
         let when = |has_rows: bool, edit: TableEdit| has_rows.then(|| Change::from(edit));
         let (rows, curves): (Vec<u32>, Vec<Runs>) = self.curves.into_iter().unzip();
@@ -211,7 +193,7 @@ impl<'d> Plan<'d> {
                     ids: ids.collect(),
                 },
             ),
-            when(!self.lengths_m.is_empty(), lengths(&self.lengths_m)),
+            set_lengths_m(&self.lengths_m),
             when(
                 !self.station_nodes.is_empty(),
                 TableEdit::SetStationNodes(self.station_nodes.into_iter().collect()),
@@ -263,37 +245,5 @@ pub(super) fn properties_of(document: &Document, like: u32) -> Insertion {
         style: paths.own_style(like as usize),
         attributes_of: Some(like),
         ..Insertion::default()
-    }
-}
-
-/// Length of a curve, in meters.
-pub(super) fn length_m(runs: &Runs) -> f64 {
-    let lengths = runs.iter().map(|run| run_length(run, LENGTH_TOLERANCE_M));
-    lengths.sum()
-}
-
-/// The length that the file states for a path.
-pub(super) fn stated_length_m(document: &Document, path: u32) -> Option<f64> {
-    match document
-        .layout()
-        .paths
-        .attributes
-        .value(path as usize, LENGTH)?
-    {
-        Value::Float(length_m) => Some(length_m),
-        Value::Int(length_m) => Some(length_m as f64),
-        _ => None,
-    }
-}
-
-fn lengths(lengths_m: &BTreeMap<u32, f64>) -> TableEdit {
-    let values: Values = lengths_m.values().map(|v| Some(Value::Float(*v))).collect();
-    TableEdit::SetValues {
-        of: Table::Paths,
-        vehicle_type: None,
-        column: LENGTH.into(),
-        quantity: None,
-        rows: lengths_m.keys().copied().collect(),
-        values: Arc::new(values),
     }
 }

@@ -10,11 +10,12 @@ use guideway_spline::construct::{Parameter, cut_all, nearest_parameter};
 use guideway_spline::{Bounds, Point, Runs};
 
 use super::error::ShapeError;
-use super::plan::{Plan, length_m, stated_length_m};
+use super::plan::Plan;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
 use crate::edit::curves::{runs_of, with_moved_ends};
+use crate::edit::lengths::{length_m, stated_length_m};
 use crate::elements::Elements;
 
 /// Distance within which places are one node, in meters.

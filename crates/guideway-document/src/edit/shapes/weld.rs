@@ -8,10 +8,11 @@ use guideway_spline::Point;
 use guideway_spline::bezier::SAME_M;
 
 use super::error::ShapeError;
-use super::plan::{Plan, length_m};
+use super::plan::Plan;
 use crate::PathSet;
 use crate::document::Document;
 use crate::edit::curves::{runs_of, with_moved_ends};
+use crate::edit::lengths::length_m;
 
 /// The numbers of elements that a weld changed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -219,6 +219,7 @@ fn join_turns_two_way_paths_around() {
     let reshape = guideway_scene::Edit::Reshape {
         paths: [half].into(),
         curves: geometry.into(),
+        written: Default::default(),
     };
     let ends_of = guideway_scene::TableEdit::SetEnds([(half, [end, start])].into());
     document

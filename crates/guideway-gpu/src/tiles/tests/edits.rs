@@ -101,6 +101,7 @@ fn edits(scene: &Scene) -> Vec<Edit> {
         Edit::Reshape {
             paths: some([52.0, 28.0], 2),
             curves: Arc::new(Geometry::from_f64(curves, vec![7, 14])),
+            written: Arc::default(),
         },
         states(&a_few, PathState::Hidden),
         Edit::Insert(

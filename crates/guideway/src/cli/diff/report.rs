@@ -26,7 +26,7 @@ pub(super) struct Report {
 impl Report {
     pub(super) fn new(files: [&Path; 2], found: &Changes<'_>, ms: [f64; 2]) -> Self {
         let mut counts = BTreeMap::new();
-        for of in &found.elements {
+        for of in found.elements.iter() {
             let key = (element_name(of.element), kind_name(of.change));
             *counts.entry(key).or_default() += 1;
         }
@@ -42,9 +42,9 @@ impl Report {
     pub(super) fn text(&self, found: &Changes<'_>, max: usize) -> String {
         let [old, new] = &self.files;
         let mut lines = format!("{old} -> {new}: {}\n", self.summary(found));
-        for (of, all) in listed(found, max) {
-            lines += &format!("{} `{}`\n", element_name(of.element), cut(found.id(of)));
-            for change in all {
+        for all in found.elements.by_element().take(max) {
+            lines += &format!("{}\n", name_of(found, &all));
+            for change in &all {
                 lines += &format!("  {}\n", describe(found, change));
             }
         }
@@ -68,10 +68,10 @@ impl Report {
         if !found.elements.is_empty() {
             lines += "\n| element | change |\n|---|---|\n";
         }
-        for (of, all) in listed(found, max) {
+        for all in found.elements.by_element().take(max) {
             let changes: Vec<String> = all.iter().map(|of| describe(found, of)).collect();
-            let name = format!("{} `{}`", element_name(of.element), cut(found.id(of)));
-            lines += &format!("| {} | {} |\n", cell(&name), cell(&changes.join("; ")));
+            let name = cell(&name_of(found, &all));
+            lines += &format!("| {name} | {} |\n", cell(&changes.join("; ")));
         }
         if let Some(more) = rest(found, max) {
             lines += &format!("\nAnd {more}.\n");
@@ -130,25 +130,20 @@ struct Body<'a> {
 }
 
 fn each_change<S: Serializer>(found: &Changes<'_>, to: S) -> Result<S::Ok, S::Error> {
-    to.collect_seq(found.elements.iter().map(|of| element_json(found, of)))
+    to.collect_seq(found.elements.iter().map(|of| element_json(found, &of)))
 }
 
-/// The changes by element, up to a number of elements.
-fn listed<'a>(
-    found: &'a Changes<'_>,
-    max: usize,
-) -> impl Iterator<Item = (&'a ElementChange, &'a [ElementChange])> {
-    let by_element = found.elements.chunk_by(ElementChange::is_same_element);
-    by_element.take(max).map(|all| (&all[0], all))
+/// Kind and name of the element of some changes.
+fn name_of(found: &Changes<'_>, all: &[ElementChange]) -> String {
+    let of = all.first();
+    of.map_or_else(String::new, |of| {
+        format!("{} `{}`", element_name(of.element), cut(found.id(of)))
+    })
 }
 
 /// The number of elements beyond those that are listed.
 fn rest(found: &Changes<'_>, max: usize) -> Option<String> {
-    let elements = found
-        .elements
-        .chunk_by(ElementChange::is_same_element)
-        .count();
-    let more = elements.saturating_sub(max) as u64;
+    let more = found.elements.element_count().saturating_sub(max) as u64;
     (more > 0).then(|| text::counted(more, "more element"))
 }
 

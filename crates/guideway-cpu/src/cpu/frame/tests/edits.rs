@@ -177,7 +177,11 @@ fn an_undone_edit_restores_every_bit() {
         paths: Arc::clone(&all),
         by: Affine::translation(Point::new(0.123, 1.456)),
     };
-    let back = Edit::Reshape { paths: all, curves };
+    let back = Edit::Reshape {
+        paths: all,
+        curves,
+        written: Arc::default(),
+    };
     let (moved, _) = draw_edited(&mut prepared, &there, (&view, &style));
     assert!(moved != at_first);
     let (again, _) = draw_edited(&mut prepared, &back, (&view, &style));
