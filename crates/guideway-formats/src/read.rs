@@ -11,7 +11,7 @@ use crate::input::Input;
 #[cfg(unix)]
 use crate::input::ReadAheadFile;
 use crate::ros_map::is_ros_map;
-use crate::source::{ReadOptions, Source};
+use crate::source::{ReadOptions, STEPS_PER_BYTE, Source};
 use crate::unpack::unpack;
 use crate::{Format, Problem, ReadError, sniff};
 
@@ -175,7 +175,7 @@ fn read_chunks(
         let done = bytes.len() as u64;
         check_size(done, &options.limits)?;
         if let Some(progress) = options.progress {
-            progress.advance(done, total.max(done));
+            progress.advance(done, total.max(done).saturating_mul(STEPS_PER_BYTE));
             if progress.cancelled() {
                 return Err(Problem::Cancelled);
             }
