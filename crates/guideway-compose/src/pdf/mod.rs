@@ -318,7 +318,7 @@ mod tests {
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains("/Group<</S/Transparency"), "{text}");
         let all = streams(&file);
-        let parts: Vec<_> = all.iter().filter(|part| part.contains("re f")).collect();
+        let parts: Vec<_> = all.iter().filter(|part| part.contains("re\nf")).collect();
         assert_eq!(parts.len(), 2, "{all:?}");
         assert!(
             parts.iter().any(|part| part.contains("/A128 gs /F1 Do")),
