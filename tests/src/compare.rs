@@ -2,7 +2,7 @@
 
 use guideway_scene::Frame;
 
-use crate::error::BoxError;
+use crate::BoxError;
 
 /// Difference of two pictures of equal size, in levels of 0 to 255. Colors are premultiplied by
 /// opacity.

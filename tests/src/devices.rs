@@ -8,8 +8,8 @@ use guideway_grid::{Grid, GridError, GridOptions};
 use guideway_scene::Method;
 use guideway_tessellation::{GlDevice, GlError};
 
+use crate::BoxError;
 use crate::compare::Tolerance;
-use crate::error::BoxError;
 
 /// A method on a device to compare with the oracle.
 pub struct DeviceCandidate {

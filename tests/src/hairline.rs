@@ -7,8 +7,8 @@
 
 use guideway_scene::{Frame, LineRule};
 
+use crate::BoxError;
 use crate::compare::pixel_difference;
-use crate::error::BoxError;
 use crate::sketch::{Drawing, Sketch};
 
 /// Limits of the difference of two pictures of one-pixel lines.

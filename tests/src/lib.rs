@@ -8,12 +8,10 @@
 //! | [`compare`], [`hairline`] | compares pictures, and pictures of one-pixel lines |
 //! | [`evidence`] | writes pictures of failed comparisons |
 //! | [`parallel`] | runs a function over a list on all threads |
-//! | [`error`] | the error type of all of them |
 
 pub mod compare;
 pub mod devices;
 pub mod edits;
-pub mod error;
 pub mod evidence;
 pub mod hairline;
 pub mod methods;
@@ -21,3 +19,6 @@ pub mod parallel;
 pub mod random;
 pub mod scenes;
 pub mod sketch;
+
+/// A sentence about a failed check or a missing device, for the output of a failed test.
+pub type BoxError = Box<dyn std::error::Error + Send + Sync>;

@@ -7,8 +7,8 @@ use guideway_scene::{
     Budget, Cancel, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
 };
 
+use crate::BoxError;
 use crate::compare::Tolerance;
-use crate::error::BoxError;
 use crate::sketch::Drawing;
 
 /// A method to compare with the oracle.

@@ -2,8 +2,8 @@
 //! picture.
 
 use guideway_scene::{Frame, FrameSize};
+use guideway_tests::BoxError;
 use guideway_tests::compare::{Difference, Tolerance, check};
-use guideway_tests::error::BoxError;
 use guideway_tests::methods::draw_reference;
 use guideway_tests::sketch::Sketch;
 

@@ -1,9 +1,9 @@
 //! Compares every scene that a method on a graphics device supports with the oracle.
 
 use guideway_scene::{Budget, Frame, RenderError};
+use guideway_tests::BoxError;
 use guideway_tests::compare::{Difference, check};
 use guideway_tests::devices::{DeviceCandidate, candidates};
-use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::methods::{check_counts, draw, draw_reference};
 use guideway_tests::scenes::{self, SceneCase};

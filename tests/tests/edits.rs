@@ -8,10 +8,10 @@ use guideway_scene::{
     Budget, Edit, EditOutcome, Frame, Method, Prepared, Report, Scene, Style, View,
 };
 use guideway_spline::{Affine, Point};
+use guideway_tests::BoxError;
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::devices::candidates;
 use guideway_tests::edits::{Area, KINDS};
-use guideway_tests::error::BoxError;
 use guideway_tests::methods::{methods, render_view};
 use guideway_tests::random::Lcg;
 use guideway_tests::scenes::{long_curves, site};

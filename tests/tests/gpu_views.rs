@@ -13,9 +13,9 @@ use guideway_scene::{
     View,
 };
 use guideway_spline::{Point, Runs};
+use guideway_tests::BoxError;
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::devices::{available_or_skip, tiles};
-use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::methods::render_view;
 use guideway_tests::random::Lcg;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use guideway_scene::{Budget, Frame, RenderError, Report};
 use guideway_tessellation::{Antialias, Commands, GlDevice, Tessellation, TessellationOptions};
+use guideway_tests::BoxError;
 use guideway_tests::devices::{available_or_skip, gl};
-use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::hairline::{Difference, Tolerance, check, drawing};
 use guideway_tests::methods::{draw, draw_reference};

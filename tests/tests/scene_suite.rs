@@ -4,8 +4,8 @@
 use std::collections::HashSet;
 
 use guideway_scene::{Budget, Frame, Method, RenderError};
+use guideway_tests::BoxError;
 use guideway_tests::compare::{Difference, check};
-use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::methods::{Candidate, check_counts, draw, draw_reference, methods};
 use guideway_tests::parallel::in_parallel;

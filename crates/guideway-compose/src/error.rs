@@ -27,9 +27,9 @@ pub enum ComposeError {
         /// The most frequent reason.
         reason: NoEnvelope,
     },
-    /// SVG holds the curves themselves, so it has no count of paths per pixel.
-    #[error("SVG cannot show density shading: it holds curves, not pixels")]
-    DensityInSvg,
+    /// SVG and PDF hold the curves themselves, so they have no count of paths per pixel.
+    #[error("SVG and PDF cannot show density shading: they hold curves, not pixels")]
+    DensityInVector,
 }
 
 /// Why an image was not read as a floor plan.
@@ -56,7 +56,7 @@ impl From<ComposeError> for UserError {
                 error.to_string(),
                 "Give the size of the vehicle, such as `--envelope 2x1.2`",
             ),
-            ComposeError::DensityInSvg => Self::new(
+            ComposeError::DensityInVector => Self::new(
                 "usage",
                 error.to_string(),
                 "Omit --shade, or save the picture as PNG",

@@ -1,14 +1,14 @@
-//! Composes a finished picture of a layout and writes it as rows of pixels, PNG or SVG.
+//! Composes a finished picture of a layout and writes it as rows of pixels, PNG, SVG or PDF.
 //!
 //! A [`Picture`] lists the layers. [`Picture::render`] draws them strip by strip with any render
 //! method, [`Picture::save_png`] writes the strips to a PNG file in memory that does not grow with
-//! the picture, and [`Picture::save_svg`] writes the same layers as exact curves.
+//! the picture, and [`Picture::save_vector`] writes the same layers as exact curves.
 //!
 //! | layer, bottom first | input | module |
 //! |---|---|---|
 //! | background | [`Style`](guideway_scene::Style) | `render`, `svg` |
 //! | floor plan | a layout, an image or a ROS map ([`FloorPlan`]) | `backdrop` |
-//! | grid | view, [`DecorationStyle`] | `decorations` |
+//! | grid, zones | scene, view, [`DecorationStyle`] | `decorations` |
 //! | swept areas | paths, vehicle ([`SweptAreas`]) | `backdrop` |
 //! | other scenes | [`Scene`](guideway_scene::Scene)s below the topmost one | `backdrop` |
 //! | paths | the topmost scene | a render method, `vector` |
@@ -17,9 +17,9 @@
 //! | legend, title, scale bar | scene, view | `decorations` |
 //!
 //! Decorations become a [`DrawList`](guideway_scene::DrawList) of polygons and lines of text before
-//! anything is drawn, so that PNG and SVG show the same shapes. `overlay` rasterizes a draw list,
-//! `vector` writes it as SVG elements, and `text` shapes its lines with an embedded font and, for
-//! letters that this font lacks, the fonts of the system.
+//! anything is drawn, so that all formats show the same shapes. `overlay` rasterizes a draw list,
+//! `vector` writes it as elements of a `page`, SVG or `pdf`, and `text` shapes its lines with an
+//! embedded font and, for letters that this font lacks, the fonts of the system.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -49,14 +49,16 @@ mod backdrop;
 mod blend;
 mod decorations;
 mod error;
-mod georeference;
+mod levels;
 mod overlay;
+mod page;
+mod pdf;
 mod picture;
 mod png_writer;
 mod render;
-mod svg;
 mod text;
 mod vector;
+mod vector_file;
 
 pub use backdrop::{
     Backdrop, FloorPlan, FloorPlanKind, Image, PreparedFloorPlan, SweptAreas, SweptReport,
@@ -64,12 +66,13 @@ pub use backdrop::{
 };
 pub use decorations::{Decorations, MarkedRoute};
 pub use error::{ComposeError, ImageError};
-pub use georeference::{PngTexts, world_file};
 pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, scale_bar};
 pub use guideway_document::text_format;
 pub use guideway_formats::lock_regular_file;
 pub use guideway_formats::raster::ImagePlacement;
+pub use levels::LevelPart;
 pub use picture::{Picture, Viewport};
-pub use png_writer::{save_png, save_png_by, write_png_by};
+pub use png_writer::{PngTexts, save_png, save_png_by, world_file, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};
 pub use text::{SystemFont, system_font};
+pub use vector_file::VectorFormat;

@@ -8,7 +8,7 @@ use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
 use crate::decorations::{Decorations, PlacedDecorations, place, place_legend};
-use crate::georeference::{PngTexts, png_texts};
+use crate::png_writer::{PngTexts, png_texts};
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
 /// those that differ.
@@ -18,6 +18,8 @@ pub struct Picture {
     pub scene: Arc<Scene>,
     /// Size and detail.
     pub viewport: Viewport,
+    /// Box that a viewport fits, in meters; `None` for all layers.
+    pub frame_m: Option<Bounds<f64>>,
     /// Line widths, shading and background of the paths.
     pub style: Style,
     /// The layers below the paths.
@@ -67,6 +69,7 @@ impl Picture {
         Self {
             scene,
             viewport: Viewport::fit(size),
+            frame_m: None,
             style: Style::default(),
             backdrop: Backdrop::default(),
             overlay: DrawList::default(),
@@ -91,6 +94,7 @@ impl Picture {
         }
         let bounds = [self.scene.bounds(), self.backdrop.bounds(&self.scene)];
         let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
+        let bounds = self.frame_m.or(bounds);
         let title_px = self.decorations.title_band_px(&self.decoration_style());
         let plain = self.fit([0.0, title_px], px_per_m, bounds)?;
         if center_m.is_some() || px_per_m.is_some() {
@@ -98,7 +102,8 @@ impl Picture {
             return View::new(size, center_m, plain.px_per_m());
         }
         let style = self.decoration_style();
-        match place_legend(&self.decorations, &self.scene, &plain, &style) {
+        let colors = (&*self.scene, self.style.shading);
+        match place_legend(&self.decorations, colors, &plain, &style) {
             Some(legend) if !legend.is_free => {
                 let beside = self.fit([legend.bounds.max.x, title_px], None, bounds)?;
                 let below = self.fit([0.0, legend.bounds.max.y], None, bounds)?;
@@ -160,7 +165,7 @@ impl Picture {
 #[cfg(test)]
 mod tests {
     use guideway_layout::{Layout, NewPath, Value};
-    use guideway_scene::{ColorBy, SceneOptions};
+    use guideway_scene::{ColorBy, SceneOptions, Shading};
     use guideway_spline::Runs;
 
     use super::*;
@@ -226,7 +231,8 @@ mod tests {
             let bounds = view.world_bounds();
             assert!(bounds.contains(Point::new(0.0, 0.0)) && bounds.contains(side_m));
             let style = picture.decoration_style();
-            let legend = place_legend(&picture.decorations, &picture.scene, &view, &style);
+            let colors = (&*picture.scene, Shading::Color);
+            let legend = place_legend(&picture.decorations, colors, &view, &style);
             assert!(legend.unwrap().is_free, "{side_m:?}");
         }
     }
@@ -239,7 +245,8 @@ mod tests {
         let view = picture.view().unwrap();
         assert_eq!(view.px_per_m(), 20.0);
         let style = picture.decoration_style();
-        let legend = place_legend(&picture.decorations, &picture.scene, &view, &style);
+        let colors = (&*picture.scene, Shading::Color);
+        let legend = place_legend(&picture.decorations, colors, &view, &style);
         assert!(legend.unwrap().is_free);
     }
 

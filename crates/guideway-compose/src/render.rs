@@ -6,11 +6,12 @@ use std::time::Instant;
 
 use guideway_formats::Progress;
 use guideway_scene::{
-    Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Rgba, Shading, Style, View,
-    elapsed_ms,
+    Cancel, DrawList, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Rgba, Shading,
+    Style, View, elapsed_ms,
 };
 
 use crate::backdrop::SweptReport;
+use crate::decorations::density_legend;
 use crate::overlay::PreparedOverlay;
 use crate::{ComposeError, Picture, blend, save_png_by};
 
@@ -58,8 +59,8 @@ impl Picture {
         let view = self.view()?;
         let visible = self.backdrop.visible(&self.scene, &view, &self.budget)?;
         let decorations = self.place_decorations(&view);
-        let mut backdrop =
-            visible.prepare(&decorations.grid, method, &self.budget, &self.style, &view)?;
+        let below = [&decorations.grid, &decorations.zones];
+        let mut backdrop = visible.prepare(below, method, &self.budget, &self.style, &view)?;
         let mut style = self.style;
         if backdrop.is_some() {
             style.background.a = 0;
@@ -74,6 +75,7 @@ impl Picture {
         let margin: Vec<_> = margin
             .map(|(list, _)| PreparedOverlay::new(list, &view))
             .collect();
+        let mut density = DrawList::default();
         let mut report = None::<Report>;
         let (mut render_ms, mut write_ms, mut bare_pixels) = (0.0, 0.0, 0);
         let size = FrameSize::new(1, 1)?;
@@ -95,6 +97,14 @@ impl Picture {
             for list in &margin {
                 list.draw(&strip, &mut frame);
             }
+            if let (Some(corner), Some(colors)) = (decorations.density_corner, &of_strip.density)
+                && density.is_empty()
+            {
+                let place = (&self.decorations, view.size());
+                let list = density_legend(colors, corner, place, &self.decoration_style());
+                density = list.unwrap_or_default();
+            }
+            PreparedOverlay::new(&density, &view).draw(&strip, &mut frame);
             match &mut report {
                 Some(report) => report.join(of_strip),
                 none => *none = Some(of_strip),
@@ -166,9 +176,45 @@ fn count_bare(frame: &Frame, background: Rgba) -> usize {
     pixels.filter(|&&pixel| pixel == bare).count()
 }
 
+/// Least number of paths that are a crowd.
+const MANY_PATHS: u64 = 10_000;
+
+impl Picture {
+    /// Returns `true` if many paths cover more than half of the picture, so that their density says
+    /// more than their colors. Renders the paths alone, if there are many.
+    ///
+    /// # Errors
+    /// See [`Picture::render`].
+    pub fn is_crowded(
+        &self,
+        method: &dyn Method,
+        progress: &dyn Progress,
+    ) -> Result<bool, ComposeError> {
+        if (self.scene.draw_order().len() as u64) < MANY_PATHS {
+            return Ok(false);
+        }
+        let style = Style {
+            shading: Shading::Color,
+            ..self.style
+        };
+        let view = self.view()?;
+        let mut prepared = method.prepare(Arc::clone(&self.scene), &self.budget)?;
+        let mut frame = Frame::new(FrameSize::new(1, 1)?);
+        let (mut drawn, mut bare_pixels) = (0, 0);
+        for strip in view.strips(prepared.strip_pixels()) {
+            if progress.cancelled() {
+                return Err(RenderError::Cancelled.into());
+            }
+            let report = prepared.render_strip(&strip, &style, &Cancel::default(), &mut frame)?;
+            drawn += report.drawn;
+            bare_pixels += count_bare(&frame, style.background);
+        }
+        Ok(drawn >= MANY_PATHS && bare_pixels * 2 < view.size().pixels())
+    }
+}
+
 /// Suggests density shading where many paths cover most of the picture.
 fn density_hint(report: &Report, bare_pixels: usize, view: &View, style: &Style) -> Option<String> {
-    const MANY_PATHS: u64 = 10_000;
     let is_crowded = report.drawn >= MANY_PATHS && bare_pixels * 2 < view.size().pixels();
     let note = "paths cover most of the picture; `--shade density` shows how many overlap";
     (is_crowded && style.shading == Shading::Color).then(|| note.to_owned())

@@ -199,6 +199,6 @@ fn swept_areas_of_no_path_are_an_error() {
 fn density_shading_has_no_svg() {
     let folder = tempfile::tempdir().unwrap();
     let error = density().save_svg(folder.path().join("a.svg")).unwrap_err();
-    assert!(matches!(error, ComposeError::DensityInSvg));
+    assert!(matches!(error, ComposeError::DensityInVector));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }

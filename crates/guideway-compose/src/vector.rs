@@ -1,29 +1,28 @@
-//! Writes paths and draw lists as SVG elements.
+//! Writes paths and draw lists as elements of a page of vector graphics.
 
-use std::io::{self, Write};
+use std::io;
 
-use guideway_formats::svg::{PathData, Stroke, SvgWriter};
 use guideway_layout::PathRef;
 use guideway_scene::{DrawList, Scene, Style, TextLine, View};
 use guideway_spline::{Bounds, Point};
 
-/// Step of coordinates, in pixels: far below what a viewer can show.
-pub(crate) const STEP_PX: f64 = 1e-3;
+use crate::page::Page;
 
 /// Writes the paths of a scene in draw order. Returns the number of paths in the view.
 pub(crate) fn write_paths(
     scene: &Scene,
     view: &View,
     style: &Style,
-    page: &mut SvgWriter<'_, impl Write>,
+    page: &mut impl Page,
 ) -> io::Result<u64> {
     let mut drawn = 0;
     for &path in scene.draw_order() {
         let width_px = width_px(scene, path, view, style);
         let outline = outline(scene, path, view, width_px);
         drawn += u64::from(!outline.is_empty());
-        let stroke = Stroke::new(scene.color(path).to_u32(), width_px);
-        page.path(scene.layout().paths.id(path as usize), &outline, &stroke)?;
+        let id = scene.layout().paths.id(path as usize);
+        let id = (!id.is_empty()).then_some(id);
+        page.path(id, &outline, scene.color(path), width_px)?;
     }
     Ok(drawn)
 }
@@ -36,55 +35,56 @@ pub(crate) fn width_px(scene: &Scene, path: u32, view: &View, style: &Style) -> 
 }
 
 /// The segments of a path whose stroke may reach into a view, in its pixels.
-pub(crate) fn outline(scene: &Scene, path: u32, view: &View, width_px: f64) -> PathData {
+pub(crate) fn outline(
+    scene: &Scene,
+    path: u32,
+    view: &View,
+    width_px: f64,
+) -> Vec<[Point<f64>; 4]> {
     let size = view.size();
     let shown = Bounds {
         min: Point::default(),
         max: Point::new(f64::from(size.width()), f64::from(size.height())),
     };
     let shown = shown.inflated(width_px / 2.0);
-    let mut outline = PathData::new(STEP_PX);
     let path: PathRef<'_> = scene.layout().paths.get(path as usize);
-    for segment in path.runs().flat_map(|run| run.segments()) {
-        let segment = segment.map(|p| view.pixel_from_world(p));
-        let hull = Bounds::of_points(segment);
-        if hull.is_some_and(|hull| hull.intersects(shown)) {
-            outline.push_segment(&segment);
-        }
-    }
-    outline
+    let segments = path.runs().flat_map(|run| run.segments());
+    let segments = segments.map(|segment| segment.map(|p| view.pixel_from_world(p)));
+    let is_near = |segment: &[Point<f64>; 4]| {
+        let hull = Bounds::of_points(*segment);
+        hull.is_some_and(|hull| hull.intersects(shown))
+    };
+    segments.filter(is_near).collect()
 }
 
 /// Writes a draw list as a group with this label; an empty list writes nothing.
 pub(crate) fn write_draw_list(
     list: &DrawList,
     label: &str,
-    page: &mut SvgWriter<'_, impl Write>,
+    page: &mut impl Page,
 ) -> io::Result<()> {
     if list.is_empty() {
         return Ok(());
     }
-    page.begin_group(label)?;
+    page.begin_group(label, 1.0)?;
     for fill in &list.fills {
-        page.polygon_layer(label, fill.color.to_u32(), STEP_PX, [&fill.polygons])?;
+        page.areas(label, fill.color, std::slice::from_ref(&fill.polygons))?;
     }
     for text in &list.texts {
-        let height = text.char_width_px / TextLine::CHAR_ASPECT;
-        let width = text.width_px();
         if text.background.a > 0 {
+            let height = text.char_width_px / TextLine::CHAR_ASPECT;
             let corner = text.left_middle_px - Point::new(0.0, 0.6 * height);
-            let rectangle = [corner.x, corner.y, width, 1.2 * height];
-            page.rect(rectangle, text.background.to_u32())?;
+            let other = corner + Point::new(text.width_px(), 1.2 * height);
+            page.rectangle([corner, other], text.background)?;
         }
-        // From the middle of a line to its baseline: half the height of a capital.
-        let at = text.left_middle_px + Point::new(0.0, 0.35 * height);
-        page.text([at.x, at.y], height, width, text.color.to_u32(), &text.text)?;
+        page.text(text)?;
     }
     page.end_group()
 }
 
 #[cfg(test)]
 mod tests {
+    use guideway_formats::svg::{Stroke, SvgWriter};
     use guideway_scene::Rgba;
 
     use super::*;

@@ -91,9 +91,9 @@ impl<'a> Builder<'a> {
         if self.read_bytes >> 20 == before {
             return Ok(());
         }
-        if let Some(progress) = self.source.options.progress {
-            progress.advance(self.read_bytes, self.file_bytes.max(self.read_bytes));
-        }
+        let paths = self.layout.paths.len();
+        self.source
+            .advance([self.read_bytes, self.file_bytes], paths);
         self.source.check_cancelled()
     }
 

@@ -14,7 +14,7 @@ use crate::other_format::other_format;
 use crate::ros_map::is_ros_map;
 #[cfg(unix)]
 use crate::sniff::has_lif_key;
-use crate::source::{ReadOptions, Source};
+use crate::source::{ReadOptions, STEPS_PER_BYTE, Source};
 use crate::unpack::unpack;
 use crate::{Format, Problem, ReadError, sniff};
 
@@ -191,7 +191,7 @@ fn read_chunks(
         let done = bytes.len() as u64;
         check_size(done, &options.limits)?;
         if let Some(progress) = options.progress {
-            progress.advance(done, total.max(done));
+            progress.advance(done, total.max(done).saturating_mul(STEPS_PER_BYTE));
             if progress.cancelled() {
                 return Err(Problem::Cancelled);
             }

@@ -23,11 +23,20 @@ pub trait Progress: Sync {
         let _ = (done, total);
     }
 
+    /// Receives the number of paths so far.
+    fn paths(&self, done: u64) {
+        let _ = done;
+    }
+
     /// Returns whether to stop: the read then ends with [`Problem::Cancelled`].
     fn cancelled(&self) -> bool {
         false
     }
 }
+
+/// Steps of a read per byte of the file: one as it comes into memory, the others as it is
+/// understood. Measured: reading a LIF file of 700 MB takes 6 s, understanding it 30 s.
+pub(crate) const STEPS_PER_BYTE: u64 = 6;
 
 /// Name and options of a file that is being read.
 #[derive(Clone, Copy)]
@@ -42,6 +51,16 @@ impl Source<'_> {
     /// Makes an error that names this source.
     pub(crate) fn fail(&self, problem: Problem) -> ReadError {
         ReadError::new(self.name, problem)
+    }
+
+    /// Reports that a part of the bytes in memory is understood, and the paths so far.
+    pub(crate) fn advance(&self, [done, total]: [u64; 2], paths: usize) {
+        if let Some(progress) = self.options.progress {
+            let total = total.max(done);
+            let steps = total + done.saturating_mul(STEPS_PER_BYTE - 1);
+            progress.advance(steps, total.saturating_mul(STEPS_PER_BYTE));
+            progress.paths(paths as u64);
+        }
     }
 
     /// Fails if files of a format are not to be read.

@@ -106,6 +106,12 @@ impl Layout {
         }
     }
 
+    /// Returns `true` if the layout is a drawing that is no network yet: lines without a direction.
+    pub fn is_drawing(&self) -> bool {
+        let mut formats = self.provenance.format.split(" + ");
+        self.nodes.is_empty() && formats.all(|format| DRAWING_FORMATS.contains(&format))
+    }
+
     /// Heap bytes in use, approximately: it omits levels, diagnostics and provenance.
     pub fn heap_bytes(&self) -> usize {
         self.paths.heap_bytes()
@@ -143,6 +149,9 @@ impl Layout {
         }
     }
 }
+
+/// Formats whose lines have no direction. One that holds networks too is a drawing without nodes.
+const DRAWING_FORMATS: [&str; 4] = ["DXF", "SVG", "ROS map", "GeoJSON"];
 
 /// Origin of a layout.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,9 +1,10 @@
-//! Merge of layouts, transforms of layouts, identifiers across layouts.
+//! Merge of layouts, transforms of layouts, identifiers across layouts, columns of paths.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 use guideway_layout::{
-    Code, Direction, GeoOrigin, Layout, Level, NewPath, Place, Value, check_across, merge,
+    Code, Direction, GeoOrigin, Layout, Level, NewPath, PathRef, Paths, Place, Value, check_across,
+    merge,
 };
 use guideway_spline::{Affine, Point, Runs};
 
@@ -196,4 +197,39 @@ fn layouts_on_earth_get_one_origin() {
         .filter(|d| d.code == Code::AssumedUnit);
     let places: Vec<_> = assumed.map(|d| d.place.element.as_str()).collect();
     assert_eq!(places, ["d"]);
+}
+
+#[test]
+fn drawings_without_nodes_stay_drawings() {
+    let of_format = |format: &str, has_nodes: bool| {
+        let mut layout = layout("a", "E", ("L", None));
+        layout.provenance.format = format.into();
+        if !has_nodes {
+            layout.retain_nodes_and_stations(&[], &[]);
+        }
+        layout
+    };
+    let plan = || of_format("DXF", false);
+    assert!(plan().is_drawing() && of_format("GeoJSON", false).is_drawing());
+    assert!(!of_format("DXF", true).is_drawing() && !of_format("LIF", false).is_drawing());
+    assert!(merge(vec![plan(), of_format("SVG", false)]).is_drawing());
+    assert!(!merge(vec![plan(), of_format("LIF", false)]).is_drawing());
+}
+
+#[test]
+fn properties_of_later_paths_leave_earlier_ones_unset() {
+    let mut paths = Paths::default();
+    paths.push(&NewPath::default());
+    paths.push(&NewPath {
+        end_node: Some(3),
+        direction: Direction::Both,
+        level: Some(1),
+        ..NewPath::default()
+    });
+    paths.push(&NewPath::default());
+    let indices = |path: PathRef| (path.start_node(), path.end_node(), path.level());
+    let (none, some) = ((None, None, None), (None, Some(3), Some(1)));
+    assert!(paths.iter().map(indices).eq([none, some, none]));
+    let directions = [Direction::Forward, Direction::Both, Direction::Forward];
+    assert!(paths.iter().map(PathRef::direction).eq(directions));
 }

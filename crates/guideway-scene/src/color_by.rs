@@ -1,4 +1,4 @@
-//! Colors paths by a column: classes for few distinct values, a continuous scale for many numbers.
+//! Colors paths by a column: classes for few distinct values, a ramp for many numbers.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use guideway_layout::{Direction, Layout, Quantity, Value, Values};
 
 use crate::color::Rgba;
+use crate::ramp::{NumberColors, Ramp, ticks};
 
 /// The column that decides the color of each path.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,10 +22,19 @@ pub struct Legend {
     pub column: String,
     /// Symbol of the unit of its numbers, if it is known.
     pub unit: Option<&'static str>,
-    /// Classes, or samples of a scale, in reading order.
+    /// Round numbers of the scale, lowest first; then classes, in reading order.
     pub entries: Vec<LegendEntry>,
-    /// True if colors between those of the entries occur too.
-    pub is_continuous: bool,
+    /// The scale of the colors, if colors between those of the entries occur too.
+    pub scale: Option<LegendScale>,
+}
+
+/// A continuous scale of a legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LegendScale {
+    /// Colors evenly along the scale, the lowest number first.
+    pub colors: Vec<Rgba>,
+    /// Places of the first entries along the scale, from 0 to 1. Further entries are classes.
+    pub at: Vec<f64>,
 }
 
 impl Legend {
@@ -59,15 +69,6 @@ const CLASSES: [Rgba; 7] = [
     Rgba::opaque(86, 180, 233),
     Rgba::opaque(190, 170, 30),
 ];
-/// Samples of the scale of numbers, from blue over red to orange: lightness and warmth rise. Each
-/// color has a contrast of at least 3:1 on white and on dark paper (WCAG 2.2, criterion 1.4.11).
-const SCALE: [Rgba; 5] = [
-    Rgba::opaque(66, 94, 212),
-    Rgba::opaque(136, 80, 190),
-    Rgba::opaque(186, 70, 140),
-    Rgba::opaque(212, 80, 80),
-    Rgba::opaque(226, 112, 20),
-];
 /// Color of values beyond the palette.
 const OTHER: Rgba = Rgba::opaque(90, 90, 90);
 /// Color of paths without a value.
@@ -80,25 +81,30 @@ pub(crate) struct UnknownColumn {
 }
 
 /// Color per row, and the legend. `drawn` lists the shown rows, which decide the classes or the
-/// scale. A column with more distinct numbers than palette colors gets a scale.
+/// scale. A column with more distinct numbers than palette colors gets a scale, and so does one
+/// whose range is given.
 pub(crate) fn resolve(
     layout: &Layout,
     by: &ColorBy,
+    style: &NumberColors,
     drawn: &[u32],
 ) -> Result<(Vec<Rgba>, Legend), UnknownColumn> {
     if let Some(numbers) = numbers(layout, &by.column) {
+        if style.range.is_some() {
+            return Ok(scale(layout, (by, style), drawn, numbers));
+        }
         let mut distinct: Vec<f64> = Vec::new();
         for value in drawn.iter().filter_map(|&path| numbers(path)) {
             if !distinct.contains(&value) {
                 distinct.push(value);
             }
             if distinct.len() > CLASSES.len() {
-                return Ok(scale(layout, by, drawn, numbers));
+                return Ok(scale(layout, (by, style), drawn, numbers));
             }
         }
     }
     let label = labels(layout, &by.column)?;
-    Ok(classes(layout, by, drawn, label))
+    Ok(classes(layout, (by, style), drawn, label))
 }
 
 type Numbers<'a> = Box<dyn Fn(u32) -> Option<f64> + 'a>;
@@ -154,54 +160,72 @@ fn unit(layout: &Layout, by: &ColorBy) -> Option<&'static str> {
     column.quantity.map(Quantity::unit)
 }
 
-fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (Vec<Rgba>, Legend) {
+fn scale(
+    layout: &Layout,
+    (by, style): (&ColorBy, &NumberColors),
+    drawn: &[u32],
+    number: Numbers<'_>,
+) -> (Vec<Rgba>, Legend) {
     let values = || drawn.iter().filter_map(|&path| number(path));
-    let low = values().fold(f64::INFINITY, f64::min);
-    let high = values().fold(f64::NEG_INFINITY, f64::max);
-    let color = |path| number(path).map_or(MISSING, |v| scale_color((v - low) / (high - low)));
+    let [low, high] = style.range.unwrap_or_else(|| {
+        [
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(f64::NEG_INFINITY, f64::max),
+        ]
+    });
+    let ramp = Ramp::new(style);
+    let color = |path| number(path).map_or(MISSING, |v| ramp.at((v - low) / (high - low)));
     let colors = (0..layout.paths.len() as u32).map(color).collect();
-    let entries = (0..SCALE.len())
-        .map(|i| i as f64 / (SCALE.len() - 1) as f64)
-        .map(|t| LegendEntry {
-            label: format!("{:.6}", low + (high - low) * t)
-                .trim_end_matches('0')
-                .trim_end_matches('.')
-                .to_owned(),
-            color: scale_color(t),
+    let (mut entries, mut at) = (Vec::new(), Vec::new());
+    for (value, label) in ticks(low, high) {
+        let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
+        at.push(share);
+        entries.push(LegendEntry {
+            label,
+            color: ramp.at(share),
             paths: None,
-        })
-        .collect();
+        });
+    }
+    let missing = drawn.len() - values().count();
+    entries.extend((missing > 0).then(|| no_value(missing as u64)));
     (
         colors,
         Legend {
             column: by.column.clone(),
             unit: unit(layout, by),
             entries,
-            is_continuous: true,
+            scale: Some(LegendScale {
+                colors: ramp.into_colors(),
+                at,
+            }),
         },
     )
 }
 
-/// The color of the scale at a fraction of its range.
-fn scale_color(fraction: f64) -> Rgba {
-    let step = fraction * (SCALE.len() - 1) as f64;
-    let below = (step as usize).min(SCALE.len() - 2);
-    SCALE[below].lerp(SCALE[below + 1], step - below as f64)
+fn no_value(paths: u64) -> LegendEntry {
+    LegendEntry {
+        label: "no value".to_owned(),
+        color: MISSING,
+        paths: Some(paths),
+    }
 }
 
-/// Colors of `count` classes: of the scale if they are ordered numbers, else of the palette.
-fn class_colors(count: usize, are_numbers: bool) -> Vec<Rgba> {
-    let fraction = |class: usize| class as f64 / count.max(2).saturating_sub(1) as f64;
-    match are_numbers {
-        true => (0..count)
-            .map(|class| scale_color(fraction(class)))
-            .collect(),
-        false => CLASSES[..count].to_vec(),
+/// Colors of `count` classes: of the ramp if they are ordered numbers, else of the list.
+fn class_colors(count: usize, numbers: Option<&NumberColors>) -> Vec<Rgba> {
+    let share = |class: usize| class as f64 / count.max(2).saturating_sub(1) as f64;
+    match numbers.map(Ramp::new) {
+        Some(ramp) => (0..count).map(|class| ramp.at(share(class))).collect(),
+        None => CLASSES[..count].to_vec(),
     }
 }
 
 /// Gives each of the most frequent values a color; the others share one.
-fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (Vec<Rgba>, Legend) {
+fn classes(
+    layout: &Layout,
+    (by, style): (&ColorBy, &NumberColors),
+    drawn: &[u32],
+    label: Labels<'_>,
+) -> (Vec<Rgba>, Legend) {
     let mut counts: HashMap<String, u64> = HashMap::new();
     let mut missing = 0;
     for &path in drawn {
@@ -220,7 +244,7 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
         let by_value = |a: &String, b: &String| number(a).partial_cmp(&number(b));
         by_count.sort_by(|a, b| by_value(&a.0, &b.0).unwrap_or(Ordering::Equal));
     }
-    let class_colors = class_colors(by_count.len(), are_numbers);
+    let class_colors = class_colors(by_count.len(), are_numbers.then_some(style));
     let color_of: HashMap<&str, Rgba> = by_count
         .iter()
         .zip(&class_colors)
@@ -246,7 +270,7 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
         entries.push(entry(&format!("{} other values", rest.len()), OTHER, paths));
     }
     if missing > 0 {
-        entries.push(entry("no value", MISSING, missing));
+        entries.push(no_value(missing));
     }
     (
         colors,
@@ -254,7 +278,7 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
             column: by.column.clone(),
             unit: unit(layout, by),
             entries,
-            is_continuous: false,
+            scale: None,
         },
     )
 }
@@ -263,33 +287,13 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
 mod tests {
     use super::*;
 
-    /// Relative luminance of WCAG 2.2.
-    fn luminance(color: Rgba) -> f64 {
-        let linear = |channel: u8| match f64::from(channel) / 255.0 {
-            c if c <= 0.04045 => c / 12.92,
-            c => ((c + 0.055) / 1.055).powf(2.4),
-        };
-        0.2126 * linear(color.r) + 0.7152 * linear(color.g) + 0.0722 * linear(color.b)
-    }
-
     #[test]
-    fn scale_contrasts_with_light_and_dark_paper() {
-        let dark = luminance(Rgba::opaque(24, 26, 30));
-        for step in 0..=100 {
-            let color = luminance(scale_color(f64::from(step) / 100.0));
-            let (on_white, on_dark) = (1.05 / (color + 0.05), (color + 0.05) / (dark + 0.05));
-            assert!(
-                on_white >= 3.0 && on_dark >= 3.0,
-                "{step}: {on_white} {on_dark}"
-            );
-        }
-    }
-
-    #[test]
-    fn ordered_classes_span_the_scale() {
-        let colors = class_colors(3, true);
-        assert_eq!((colors[0], colors[2]), (SCALE[0], SCALE[4]));
-        assert_eq!(class_colors(1, true), [SCALE[0]]);
-        assert_eq!(class_colors(2, false), CLASSES[..2]);
+    fn ordered_classes_span_the_ramp() {
+        let style = NumberColors::default();
+        let ramp = Ramp::new(&style);
+        let colors = class_colors(3, Some(&style));
+        assert_eq!((colors[0], colors[2]), (ramp.at(0.0), ramp.at(1.0)));
+        assert_eq!(class_colors(1, Some(&style)), [ramp.at(0.0)]);
+        assert_eq!(class_colors(2, None), CLASSES[..2]);
     }
 }

@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 
 use crate::color::Rgba;
+use crate::color_by::{Legend, LegendEntry, LegendScale};
 use crate::frame::Frame;
 
 /// Pixels per parallel task: large enough that scheduling costs nothing against the work.
@@ -25,6 +26,11 @@ pub enum ToneMap {
     Equalized,
 }
 
+/// Colors of a legend. Derived: neighbors differ by less than an eye can tell.
+const LEGEND_COLORS: usize = 65;
+/// Least distance of the numbers of a legend, as a share of its scale: a line of text.
+const LEAST_GAP: f64 = 0.12;
+
 /// Color ramp from few paths to many. Lightness rises evenly.
 const STEPS: [Rgba; 6] = [
     Rgba::opaque(20, 30, 80),
@@ -35,14 +41,16 @@ const STEPS: [Rgba; 6] = [
     Rgba::opaque(250, 240, 150),
 ];
 
-/// Colors a whole frame from `counts`, the mean number of covering paths per pixel.
+/// Colors a whole frame from `counts`, the mean number of covering paths per pixel. Returns the
+/// meaning of the colors.
 ///
 /// # Panics
 /// When `counts` and `frame` differ in length.
-pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame) {
+pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame) -> Legend {
     let mut tones = ToneScale::new(tone);
     tones.observe(counts);
     tones.shade(counts, background, frame);
+    tones.legend()
 }
 
 /// The color scale of one picture, derived from all its counts in a first pass.
@@ -90,16 +98,8 @@ impl ToneScale {
     /// When `counts` and `frame` differ in length.
     pub fn shade(&self, counts: &[f32], background: Rgba, frame: &mut Frame) {
         assert_eq!(counts.len(), frame.pixels().len(), "one count per pixel");
-        let max_count = f64::from(self.max_count);
-        let max_log = max_count.ln_1p();
-        let ranks = self.histogram.ranks();
-        // At least 1, to divide by it.
-        let max_rank = ranks.up_to(self.max_count).max(1.0);
-        let ramp = Ramp::new(self.max_count, background, |count| match self.tone {
-            ToneMap::Linear => f64::from(count) / max_count,
-            ToneMap::Log => f64::from(count).ln_1p() / max_log,
-            ToneMap::Equalized => ranks.up_to(count) / max_rank,
-        });
+        let along = self.along();
+        let ramp = Ramp::new(self.max_count, background, along);
         let pixels = frame.pixels_mut().par_chunks_mut(CHUNK);
         let parts = pixels.zip(counts.par_chunks(CHUNK));
         parts.for_each(|(pixels, counts)| {
@@ -108,6 +108,71 @@ impl ToneScale {
             }
         });
     }
+}
+
+impl ToneScale {
+    /// Places of counts on the ramp, 0 to 1.
+    fn along(&self) -> impl Fn(f32) -> f64 {
+        let max_count = f64::from(self.max_count);
+        let max_log = max_count.ln_1p();
+        let ranks = self.histogram.ranks();
+        // At least 1, to divide by it.
+        let max_rank = ranks.up_to(self.max_count).max(1.0);
+        move |count| match self.tone {
+            ToneMap::Linear => f64::from(count) / max_count,
+            ToneMap::Log => f64::from(count).ln_1p() / max_log,
+            ToneMap::Equalized => ranks.up_to(count) / max_rank,
+        }
+    }
+
+    /// The meaning of the colors: a scale from one path to the largest number, with round numbers.
+    pub fn legend(&self) -> Legend {
+        let along = self.along();
+        let first = along(1.0).min(1.0);
+        let span = 1.0 - first;
+        let mut ticks: Vec<(f64, LegendEntry)> = Vec::new();
+        for count in round_counts(self.max_count).rev() {
+            let at = match span > 0.0 {
+                true => ((along(count) - first) / span).clamp(0.0, 1.0),
+                false => 0.0,
+            };
+            if ticks
+                .last()
+                .is_none_or(|(above, _)| above - at >= LEAST_GAP)
+            {
+                let entry = LegendEntry {
+                    label: format!("{count}"),
+                    color: ramp_color(first + span * at),
+                    paths: None,
+                };
+                ticks.push((at, entry));
+            }
+        }
+        ticks.reverse();
+        let (at, entries) = ticks.into_iter().unzip();
+        let color = |i: usize| ramp_color(first + span * i as f64 / (LEGEND_COLORS - 1) as f64);
+        let colors = (0..LEGEND_COLORS).map(color).collect();
+        Legend {
+            column: "paths per pixel".to_owned(),
+            unit: None,
+            entries,
+            scale: Some(LegendScale { colors, at }),
+        }
+    }
+}
+
+/// Round counts from one up to a number: 1, 2 and 5 times powers of ten.
+fn round_counts(up_to: f32) -> impl DoubleEndedIterator<Item = f32> {
+    let counts = (0..30).map(|i| [1.0, 2.0, 5.0][i % 3] * 10f32.powi(i as i32 / 3));
+    let counts: Vec<f32> = counts.filter(|count| *count <= up_to).collect();
+    counts.into_iter()
+}
+
+/// The color at a place on the ramp, 0 to 1.
+fn ramp_color(along: f64) -> Rgba {
+    let along = along * (STEPS.len() - 1) as f64;
+    let below = (along as usize).min(STEPS.len() - 2);
+    STEPS[below].lerp(STEPS[below + 1], along - below as f64)
 }
 
 /// Lookup table from counts to pixels. Neighboring entries differ by about 1/1000 of 1 + count, so
@@ -125,9 +190,7 @@ impl Ramp {
         let pixels = (0..=Self::entry(max_count)).map(|entry| {
             let bits = ((entry as u32) << Self::BITS_BELOW) + 1_f32.to_bits();
             let count = (f32::from_bits(bits) - 1.0).min(max_count);
-            let along = along(count) * (STEPS.len() - 1) as f64;
-            let below = (along as usize).min(STEPS.len() - 2);
-            let color = STEPS[below].lerp(STEPS[below + 1], along - below as f64);
+            let color = ramp_color(along(count));
             let shown = background.lerp(color, f64::from(count.min(1.0)));
             [shown.r, shown.g, shown.b, shown.a]
         });

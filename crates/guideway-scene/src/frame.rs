@@ -1,7 +1,6 @@
 //! Frame size and the RGBA pixel buffer that methods render into.
 
-use crate::RenderError;
-use crate::limits::{MAX_FRAME_PIXELS, MAX_SIDE_PX};
+use crate::error::{MAX_FRAME_PIXELS, MAX_SIDE_PX, RenderError};
 
 /// Width and height of a picture, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,10 +15,10 @@
 //!
 //! | files | content |
 //! |---|---|
-//! | `scene/`, `color`, `color_by`, `style`, `width`, `density` | appearance of the paths |
+//! | `scene/`, `color`, `color_by`, `ramp`, `style`, `density` | appearance of the paths |
 //! | `edit/`, `table` | changes of a scene and their inverses |
 //! | `cluster/` | the spatial index of paths, nodes and strokes |
-//! | `view`, `frame`, `strip`, `limits` | the picture |
+//! | `view`, `frame`, `strip` | the picture |
 //! | `method`, `report`, `error` | the contract of render methods |
 //! | `draw_list` | decorations over or below the paths |
 
@@ -30,28 +30,26 @@ mod draw_list;
 mod edit;
 mod error;
 mod frame;
-mod limits;
 mod method;
+mod ramp;
 mod report;
 mod scene;
 mod strip;
 mod style;
 mod table;
-mod user_error;
 mod view;
-mod width;
 
 pub use color::{ParseColorError, Rgba};
-pub use color_by::{ColorBy, Legend, LegendEntry};
+pub use color_by::{ColorBy, Legend, LegendEntry, LegendScale};
 pub use draw_list::{DrawList, Fill, TextLine};
 pub use edit::{Edit, EditError, Insertion, NewNode, NewStation, TableEdit};
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, Prepared};
+pub use ramp::{NumberColors, Palette};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
 pub use scene::{LayoutCopy, NoOpaqueColor, PathState, Scene, SceneError, SceneOptions};
 pub use strip::Strip;
-pub use style::{Shading, Style};
+pub use style::{LineRule, Shading, Style};
 pub use table::Table;
 pub use view::View;
-pub use width::LineRule;

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::time::Instant;
 
+use crate::color_by::Legend;
 use crate::scene::Scene;
 
 /// Report of one frame: the fate of every path and the time of every stage.
@@ -30,6 +31,8 @@ pub struct Report {
     pub bands: u32,
     /// Deviations from the requested style, a sentence each: for example, a fixed line width.
     pub notes: Vec<String>,
+    /// Meaning of the colors of density shading.
+    pub density: Option<Legend>,
 }
 
 /// A stage of a frame or of a preparation.

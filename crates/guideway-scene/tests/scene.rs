@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use guideway_layout::{Layout, Level, NewPath, Quantity, Value};
-use guideway_scene::{ColorBy, Rgba, Scene, SceneError, SceneOptions};
+use guideway_scene::density::{ToneMap, shade};
+use guideway_scene::{ColorBy, Frame, FrameSize, Palette, Rgba, Scene, SceneError, SceneOptions};
 use guideway_spline::{Point, Runs};
 
 fn layout(paths: usize) -> Layout {
@@ -168,11 +169,50 @@ fn many_distinct_numbers_form_a_scale() {
     }
     let scene = scene(speeds, &by("speed"));
     let legend = scene.legend().unwrap();
-    assert!(legend.is_continuous);
-    assert_eq!(legend.entries[0].label, "0");
-    assert_eq!(legend.entries[4].label, "1.9");
-    assert_eq!(scene.color(19), legend.entries[4].color);
-    assert_ne!(scene.color(0), scene.color(10));
+    let scale = legend.scale.as_ref().unwrap();
+    let labels: Vec<_> = legend.entries.iter().map(|e| e.label.as_str()).collect();
+    assert_eq!(labels, ["0", "0.5", "1", "1.5"]);
+    assert_eq!((scale.at[0], scale.at[2]), (0.0, 1.0 / 1.9));
+    assert_eq!(scene.color(0), scale.colors[0]);
+    assert_eq!(scene.color(10), legend.entries[2].color);
+    assert_eq!(Some(&scene.color(19)), scale.colors.last());
+}
+
+#[test]
+fn a_given_range_ends_the_scale_and_counts_paths_without_a_value() {
+    let mut speeds = layout(4);
+    for (row, speed) in [0.5, 1.0, 7.0].into_iter().enumerate() {
+        let attributes = &mut speeds.paths.attributes;
+        attributes.set(row, "speed", Value::Float(speed));
+    }
+    let mut options = by("speed");
+    options.numbers.range = Some([0.0, 2.0]);
+    options.numbers.palette = Palette::Viridis;
+    let scene = scene(speeds, &options);
+    let legend = scene.legend().unwrap();
+    let colors = &legend.scale.as_ref().unwrap().colors;
+    assert_eq!(scene.color(1), colors[colors.len() / 2]);
+    assert_eq!(scene.color(2), colors[colors.len() - 1]);
+    let last = legend.entries.last().unwrap();
+    assert_eq!((last.label.as_str(), last.paths), ("no value", Some(1)));
+}
+
+#[test]
+fn walls_are_gray_below_the_ways_only_where_asked() {
+    let mut hall = layout(3);
+    hall.paths.attributes.set(1, "element", Value::Text("lane"));
+    hall.paths.attributes.set(2, "element", Value::Text("wall"));
+    let as_before = scene(hall.clone(), &SceneOptions::default());
+    assert_eq!(as_before.draw_order(), [0, 1, 2]);
+    assert_eq!(as_before.color(2), as_before.color(0));
+    let options = SceneOptions {
+        has_gray_structure: true,
+        ..SceneOptions::default()
+    };
+    let styled = scene(hall, &options);
+    assert_eq!(styled.draw_order(), [2, 0, 1]);
+    assert_ne!(styled.color(2), styled.color(0));
+    assert_eq!(styled.color(1), as_before.color(1));
 }
 
 #[test]
@@ -182,4 +222,29 @@ fn colors_by_built_in_columns_and_rejects_unknown_ones() {
     assert_ne!(levels.color(0), levels.color(1));
     let error = Scene::new(Arc::new(layout(1)), &by("color of the sky")).unwrap_err();
     assert!(error.to_string().contains("vehicle_type"), "{error}");
+}
+
+#[test]
+fn legend_has_round_numbers_at_their_colors() {
+    for tone in [ToneMap::Linear, ToneMap::Log, ToneMap::Equalized] {
+        let counts: Vec<f32> = (0..1237).map(|i| i as f32).collect();
+        let mut frame = Frame::new(FrameSize::new(1237, 1).unwrap());
+        let legend = shade(&counts, tone, Rgba::WHITE, &mut frame);
+        assert_eq!(legend.entries.last().unwrap().label, "1000");
+        assert!((2..=9).contains(&legend.entries.len()), "{tone:?}");
+        for entry in &legend.entries {
+            let count: usize = entry.label.parse().unwrap();
+            let [r, g, b, _] = frame.pixels()[count];
+            let off = [entry.color.r.abs_diff(r), entry.color.g.abs_diff(g)];
+            assert!(off.iter().all(|off| *off <= 2), "{tone:?} {count}");
+            assert!(entry.color.b.abs_diff(b) <= 2, "{tone:?} {count}");
+        }
+    }
+    let single = shade(
+        &[1.0],
+        ToneMap::Log,
+        Rgba::WHITE,
+        &mut Frame::new(FrameSize::new(1, 1).unwrap()),
+    );
+    assert_eq!(single.entries.len(), 1);
 }

@@ -150,7 +150,7 @@ impl DisplaySettings {
         SceneOptions {
             color: Some(PATH_COLOR),
             color_by: self.color_by.clone().map(|column| ColorBy { column }),
-            level: None,
+            ..SceneOptions::default()
         }
     }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use guideway_compose::{ComposeError, NoProgress, Picture, Rendered};
+use guideway_compose::{ComposeError, NoProgress, Picture, Rendered, VectorFormat};
 use guideway_formats::{Losses, ReadError, ReadOptions, Target, WriteError, read_file};
 use guideway_layout::{CheckOptions, Diagnostics, Layout, UserError, shown_path};
 use guideway_network::AnalyzeOptions;
@@ -28,8 +28,8 @@ pub fn check(layout: &Layout) -> Diagnostics {
     found
 }
 
-/// Draws a layout on 1920 x 1080 pixels and saves the picture, as SVG if the extension says so,
-/// else as PNG. [`Picture`] has the options.
+/// Draws a layout on 1920 x 1080 pixels and saves the picture, as SVG or PDF if the extension
+/// says so, else as PNG. [`Picture`] has the options.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -38,9 +38,14 @@ pub fn render(layout: Layout, path: impl AsRef<Path>) -> Result<Rendered, Compos
     // A scene without options takes every layout.
     let scene = Scene::new(Arc::new(layout), &SceneOptions::default()).expect("no options");
     let picture = Picture::new(Arc::new(scene), FrameSize::new(1920, 1080)?);
-    match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("svg") => picture.save_svg(path),
-        _ => picture.save_png(&guideway_cpu::Cpu, path, &NoProgress),
+    let is_named = |name| {
+        path.extension()
+            .is_some_and(|own| own.eq_ignore_ascii_case(name))
+    };
+    match is_named("pdf") {
+        true => picture.save_vector(VectorFormat::Pdf, path),
+        false if is_named("svg") => picture.save_vector(VectorFormat::Svg, path),
+        false => picture.save_png(&guideway_cpu::Cpu, path, &NoProgress),
     }
 }
 

@@ -1,11 +1,14 @@
-//! Floor plan at the bottom of a picture: the paths of a layout in a pale color, or an image.
+//! Floor plan at the bottom of a picture: the paths of a layout in a pale color, or an image; and
+//! which of these a file is, by its first bytes.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
 use std::sync::Arc;
 
 use guideway_cpu::Cpu;
-use guideway_formats::ros_map::OccupancyGrid;
-use guideway_formats::svg::{PathData, Stroke, SvgWriter};
+use guideway_formats::raster::is_raster;
+use guideway_formats::ros_map::{OccupancyGrid, is_ros_map};
 use guideway_layout::Layout;
 use guideway_scene::{
     Budget, Cancel, Frame, LineRule, Method, Prepared, Rgba, Scene, SceneError, SceneOptions,
@@ -15,6 +18,7 @@ use guideway_spline::Bounds;
 
 use super::image::Image;
 use crate::ComposeError;
+use crate::page::Page;
 use crate::vector::outline;
 
 /// Color of all paths of a floor plan: pale, so that the layout stands out.
@@ -86,22 +90,17 @@ impl FloorPlan {
         })
     }
 
-    /// Writes the plan as SVG elements.
-    pub(super) fn write(
-        &self,
-        view: &View,
-        page: &mut SvgWriter<'_, impl Write>,
-    ) -> io::Result<()> {
+    /// Writes the plan as elements of a page.
+    pub(super) fn write(&self, view: &View, page: &mut impl Page) -> io::Result<()> {
         match self {
             Self::Image(image) => image.write(view, page),
             Self::Paths(scene) => {
-                page.begin_group("floor plan")?;
                 for &path in scene.draw_order() {
                     let width_px = 2.0 * LINES.radius_px(None, view.px_per_m());
-                    let outline: PathData = outline(scene, path, view, width_px);
-                    page.path("", &outline, &Stroke::new(PATH_COLOR.to_u32(), width_px))?;
+                    let outline = outline(scene, path, view, width_px);
+                    page.path(None, &outline, PATH_COLOR, width_px)?;
                 }
-                page.end_group()
+                Ok(())
             }
         }
     }
@@ -130,5 +129,60 @@ impl PreparedFloorPlan {
             Self::Image(image) => image.draw(strip, background, frame),
         }
         Ok(())
+    }
+}
+
+/// Bytes that are examined: a map file takes 200, and comments may precede its fields.
+const EXAMINED: u64 = 1 << 16;
+
+/// The way in which a file becomes a floor plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FloorPlanKind {
+    /// A PNG, JPEG or PGM image, which needs an [`ImagePlacement`](crate::ImagePlacement).
+    Image,
+    /// A `map.yaml` of ROS, which places its image itself.
+    RosMap,
+    /// Anything else: its reader tells whether it is a layout or a drawing.
+    Layout,
+}
+
+impl FloorPlanKind {
+    /// The kind of a file. A file that cannot be read is a layout, whose reader reports why.
+    pub fn of_file(path: &Path) -> Self {
+        let mut first = Vec::new();
+        // Opening a pipe would wait for a writer.
+        if path.is_file()
+            && let Ok(file) = File::open(path)
+        {
+            // The bytes before an error still tell the kind.
+            let _ = file.take(EXAMINED).read_to_end(&mut first);
+        }
+        match &*first {
+            bytes if is_raster(bytes) => Self::Image,
+            bytes if is_ros_map(bytes) => Self::RosMap,
+            _ => Self::Layout,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn first_bytes_tell_the_kind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        assert_eq!(FloorPlanKind::of_file(&path), FloorPlanKind::Layout);
+        for (bytes, kind) in [
+            (&b"P5 1 1 255\n\0"[..], FloorPlanKind::Image),
+            (b"\x89PNG\r\n", FloorPlanKind::Image),
+            (b"\xFF\xD8\xFF\xE0", FloorPlanKind::Image),
+            (b"image: a.pgm\norigin: [0, 0, 0]\n", FloorPlanKind::RosMap),
+            (b"levels:\n", FloorPlanKind::Layout),
+        ] {
+            std::fs::write(&path, bytes).unwrap();
+            assert_eq!(FloorPlanKind::of_file(&path), kind);
+        }
     }
 }

@@ -1,14 +1,12 @@
 //! Places an image on the floor and resamples it for a strip of a view.
 
-use std::io::{self, Write};
+use std::borrow::Cow;
+use std::io;
 use std::path::Path;
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 use guideway_formats::ReadOptions;
 use guideway_formats::raster::{self, ImagePlacement, Raster};
 use guideway_formats::ros_map::OccupancyGrid;
-use guideway_formats::svg::SvgWriter;
 use guideway_scene::{Frame, Rgba, Strip, View};
 use guideway_spline::{Affine, Bounds, Point};
 
@@ -16,6 +14,7 @@ use super::map_colors;
 use super::mip_levels::{MipLevel, levels, unpremultiply};
 use crate::ImageError;
 use crate::blend::over;
+use crate::page::{Page, PageImage};
 use crate::png_writer::encode_png;
 
 /// An image that lies on the floor.
@@ -105,12 +104,8 @@ impl Image {
         }
     }
 
-    /// Writes the image as an SVG element that embeds it as PNG.
-    pub(super) fn write(
-        &self,
-        view: &View,
-        page: &mut SvgWriter<'_, impl Write>,
-    ) -> io::Result<()> {
+    /// Writes the image as an element of a page.
+    pub(super) fn write(&self, view: &View, page: &mut impl Page) -> io::Result<()> {
         let size = self.size();
         let on_page = |x: f64, y: f64| {
             view.pixel_from_world(
@@ -120,26 +115,31 @@ impl Image {
         };
         let corner = on_page(0.0, 0.0);
         let (right, down) = (on_page(1.0, 0.0) - corner, on_page(0.0, 1.0) - corner);
-        let data = match &self.png {
-            Some(png) => STANDARD.encode(png),
-            None => {
-                let level = &self.levels[0];
-                let size = [level.width as u32, level.height as u32];
-                STANDARD.encode(encode_png(size, level.straight_pixels())?)
-            }
-        };
-        let data = format!("data:image/png;base64,{data}");
-        page.image(
-            [right.x, right.y, down.x, down.y, corner.x, corner.y],
-            &data,
-        )
+        page.image([right.x, right.y, down.x, down.y, corner.x, corner.y], self)
+    }
+}
+
+impl PageImage for Image {
+    fn png(&self) -> io::Result<Cow<'_, [u8]>> {
+        match &self.png {
+            Some(png) => Ok(Cow::Borrowed(png)),
+            None => Ok(Cow::Owned(encode_png(self.size_px(), self.pixels())?)),
+        }
+    }
+
+    fn size_px(&self) -> [u32; 2] {
+        [self.levels[0].width as u32, self.levels[0].height as u32]
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = [u8; 4]> {
+        self.levels[0].straight_pixels()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use guideway_formats::ros_map::{OCCUPIED, UNKNOWN};
-    use guideway_formats::svg::Stroke;
+    use guideway_formats::svg::{Stroke, SvgWriter};
     use guideway_scene::FrameSize;
 
     use super::*;

@@ -1,10 +1,9 @@
-//! Stacks the layers of a backdrop into one frame per strip, or writes them as SVG.
+//! Stacks the layers of a backdrop into one frame per strip, or writes them as vector graphics.
 
-use std::io::{self, Write};
+use std::io;
 use std::sync::Arc;
 
 use guideway_cpu::Areas;
-use guideway_formats::svg::SvgWriter;
 use guideway_scene::Budget;
 use guideway_scene::{
     Cancel, DrawList, Frame, FrameSize, Method, Prepared, Rgba, Scene, Strip, Style, View,
@@ -16,6 +15,7 @@ use super::swept::{self, SweptAreas, SweptReport, VisibleAreas};
 use crate::ComposeError;
 use crate::blend::composite_over;
 use crate::overlay::PreparedOverlay;
+use crate::page::Page;
 use crate::vector::{write_draw_list, write_paths};
 
 /// The layers below the paths of a picture, bottom first.
@@ -72,11 +72,11 @@ pub(crate) struct VisibleBackdrop<'b> {
 }
 
 impl VisibleBackdrop<'_> {
-    /// Prepares the layers for rendering; `None` if the backdrop is empty. `grid` is drawn below
-    /// the lines of the backdrop.
+    /// Prepares the layers for rendering; `None` if the backdrop is empty. Grid and zones are drawn
+    /// below the lines of the backdrop.
     pub(crate) fn prepare<'a>(
         &'a self,
-        grid: &'a DrawList,
+        [grid, zones]: [&'a DrawList; 2],
         method: &dyn Method,
         budget: &Budget,
         style: &Style,
@@ -84,7 +84,7 @@ impl VisibleBackdrop<'_> {
     ) -> Result<Option<PreparedBackdrop<'a>>, ComposeError> {
         let floor_plan = self.backdrop.floor_plan.as_ref();
         let floor_plan = floor_plan.map(|plan| plan.prepare(budget));
-        let lines = [grid, &self.backdrop.lines].into_iter();
+        let lines = [grid, zones, &self.backdrop.lines].into_iter();
         let lines = lines.filter(|lines| !lines.is_empty());
         let others = self.backdrop.others.iter();
         let others = others.map(|other| method.prepare(Arc::clone(other), budget));
@@ -105,26 +105,26 @@ impl VisibleBackdrop<'_> {
         Ok((!prepared.is_empty()).then_some(prepared))
     }
 
-    /// Writes the layers as SVG elements.
+    /// Writes the layers as elements of a page.
     pub(crate) fn write(
         &self,
-        grid: &DrawList,
+        [grid, zones]: [&DrawList; 2],
         view: &View,
         style: &Style,
-        page: &mut SvgWriter<'_, impl Write>,
+        page: &mut impl Page,
     ) -> io::Result<()> {
         if let Some(plan) = &self.backdrop.floor_plan {
             let fade = self.backdrop.floor_plan_fade;
-            if fade > 0.0 {
-                page.begin_faded_group(1.0 - fade.min(1.0))?;
-            }
+            page.begin_group("floor plan", 1.0 - fade.clamp(0.0, 1.0))?;
             plan.write(view, page)?;
-            if fade > 0.0 {
-                page.end_group()?;
-            }
+            page.end_group()?;
         }
-        for lines in [grid, &self.backdrop.lines] {
-            write_draw_list(lines, "grid", page)?;
+        for (lines, label) in [
+            (grid, "grid"),
+            (zones, "zones"),
+            (&self.backdrop.lines, "grid"),
+        ] {
+            write_draw_list(lines, label, page)?;
         }
         if let Some(areas) = &self.areas {
             areas.write(view, page)?;

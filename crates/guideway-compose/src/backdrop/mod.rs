@@ -2,8 +2,7 @@
 //!
 //! | module | input | output |
 //! |---|---|---|
-//! | `kind` | a file | whether it is a layout, an image or a map |
-//! | `floor_plan` | a layout, an image or a map | its pixels in a strip, its SVG elements |
+//! | `floor_plan` | a layout, an image or a map | its pixels in a strip, its elements of a page |
 //! | `image` | an image and its placement | resampled pixels |
 //! | `map_colors` | the cells of a map | the pixels of an image |
 //! | `swept` | paths and a vehicle | translucent areas |
@@ -11,15 +10,13 @@
 
 mod floor_plan;
 mod image;
-mod kind;
 mod layers;
 mod map_colors;
 mod mip_levels;
 mod swept;
 
-pub use floor_plan::{FloorPlan, PreparedFloorPlan};
+pub use floor_plan::{FloorPlan, FloorPlanKind, PreparedFloorPlan};
 pub use image::Image;
-pub use kind::FloorPlanKind;
 pub use layers::Backdrop;
 pub(crate) use layers::VisibleBackdrop;
 pub use swept::{SweptAreas, SweptReport, draw_swept_areas};

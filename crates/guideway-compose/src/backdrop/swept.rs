@@ -1,17 +1,17 @@
 //! Swept areas: finds the outlines of what vehicles sweep along paths, draws and writes them.
 
-use std::io::{self, Write};
+use std::io;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use guideway_cpu::{Areas, lay_areas};
 use guideway_envelope::{EnvelopeSource, MIN_TOLERANCE_M, NoEnvelope};
-use guideway_formats::svg::SvgWriter;
 use guideway_layout::Layout;
 use guideway_scene::{Budget, Frame, RenderError, Rgba, Scene, Strip, View};
 use guideway_spline::{Bounds, Point};
 use rayon::prelude::*;
 
 use crate::ComposeError;
+use crate::page::Page;
 
 use outline::OutlineBuilder;
 
@@ -166,19 +166,17 @@ impl VisibleAreas {
         areas
     }
 
-    /// Writes the areas as an SVG group.
-    pub(super) fn write(
-        &self,
-        view: &View,
-        page: &mut SvgWriter<'_, impl Write>,
-    ) -> io::Result<()> {
+    /// Writes the areas as a group.
+    pub(super) fn write(&self, view: &View, page: &mut impl Page) -> io::Result<()> {
         let on_page = |contour: &Vec<Point<f64>>| -> Vec<Point<f64>> {
             let corners = contour.iter();
             corners.map(|&p| view.pixel_from_world(p)).collect()
         };
         let areas = self.areas.iter();
-        let areas = areas.map(|contours| contours.iter().map(on_page));
-        page.polygon_layer("swept areas", COLOR.to_u32(), STEP_PX, areas)
+        let areas: Vec<Vec<_>> = areas
+            .map(|contours| contours.iter().map(on_page).collect())
+            .collect();
+        page.areas("swept areas", COLOR, &areas)
     }
 }
 

@@ -5,6 +5,7 @@
 //! | `options` | | [`Decorations`]: the selection |
 //! | `title` | a text | draw list: one line at the top center |
 //! | `place_legend` | scene, view, selection | the legend in a corner without paths |
+//! | `zones` | scene, view | draw list: outlines of zones with a tint |
 //! | `route` | scene, view, rows of paths | draw list: a band along a route, its ends marked |
 //! | `place` | scene, view, selection | draw lists that keep clear of each other |
 //!
@@ -15,8 +16,9 @@ mod place;
 mod place_legend;
 mod route;
 mod title;
+mod zones;
 
 pub use options::Decorations;
 pub(crate) use place::{PlacedDecorations, place};
-pub(crate) use place_legend::place_legend;
+pub(crate) use place_legend::{density_legend, place_legend};
 pub use route::MarkedRoute;

@@ -9,7 +9,10 @@ use super::route::MarkedRoute;
 pub struct Decorations {
     /// Lines at round coordinates, below the paths.
     pub has_grid: bool,
-    /// Arrows along the paths, in the direction of travel.
+    /// Zones: a tint with an outline, below the paths.
+    pub has_zones: bool,
+    /// Arrows along the paths, in the direction of travel; none in a drawing, whose lines have no
+    /// direction.
     pub has_arrows: bool,
     /// A diamond per node.
     pub has_nodes: bool,
@@ -19,7 +22,7 @@ pub struct Decorations {
     pub has_labels: bool,
     /// A bar of a round length.
     pub has_scale_bar: bool,
-    /// The meaning of the colors, if the scene colors paths by a column.
+    /// The meaning of the colors, if the scene colors paths by a column or shows their density.
     pub has_legend: bool,
     /// A route over the paths.
     pub route: Option<MarkedRoute>,
@@ -34,6 +37,7 @@ impl Decorations {
     pub fn site(title: impl Into<String>) -> Self {
         Self {
             has_grid: true,
+            has_zones: true,
             has_arrows: true,
             has_nodes: true,
             has_stations: true,

@@ -2,15 +2,17 @@
 
 use guideway_document::Document;
 use guideway_document::decorations::{
-    DecorationStyle, Label, MarkOptions, MarkedKinds, Marks, grid, marks, scale_bar, scale_bar_box,
+    Corner, DecorationStyle, Label, MarkOptions, MarkedKinds, Marks, grid, marks, scale_bar,
+    scale_bar_box,
 };
-use guideway_scene::{DrawList, Scene, Style, View};
+use guideway_scene::{DrawList, Scene, Shading, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use super::options::Decorations;
-use super::place_legend::place_legend;
+use super::place_legend::{colors_of, place_legend};
 use super::route;
 use super::title::title;
+use super::zones;
 
 /// Opacity of the paper behind the scale bar.
 const PAPER_OPACITY: f64 = 0.9;
@@ -20,10 +22,14 @@ const PAPER_OPACITY: f64 = 0.9;
 pub(crate) struct PlacedDecorations {
     /// Below the paths.
     pub(crate) grid: DrawList,
+    /// Over the grid.
+    pub(crate) zones: DrawList,
     /// Over the paths.
     pub(crate) marks: DrawList,
     /// Over everything, with the label of each SVG group.
     pub(crate) margin: Vec<(DrawList, &'static str)>,
+    /// Corner of the legend of density, which is drawn once its numbers are known.
+    pub(crate) density_corner: Option<Corner>,
     /// Decorations that are left out, for the report.
     pub(crate) notes: Vec<String>,
 }
@@ -46,12 +52,14 @@ pub(crate) fn place(
         occupied.push(bounds);
         placed.margin.push((list, "title"));
     }
-    match place_legend(decorations, scene, view, style) {
+    match place_legend(decorations, (scene, paths.shading), view, style) {
         Some(placed_legend) => {
             occupied.push(placed_legend.bounds);
+            let is_known = paths.shading == Shading::Color;
+            placed.density_corner = (!is_known).then_some(placed_legend.corner);
             placed.margin.push((placed_legend.list, "legend"));
         }
-        None if decorations.has_legend && scene.legend().is_some() => placed
+        None if decorations.has_legend && colors_of(scene, paths.shading).is_some() => placed
             .notes
             .push("the legend is larger than the picture, so it is only in this report".to_owned()),
         None => {}
@@ -70,6 +78,9 @@ pub(crate) fn place(
     occupied.extend(route.iter().flat_map(|route| &route.occupied));
     if decorations.has_grid {
         placed.grid = grid(view, None, style);
+    }
+    if decorations.has_zones {
+        placed.zones = zones::draw(scene, view, style);
     }
     if decorations.has_marks() {
         let marks = visible_marks(decorations, scene, view, paths, style, &occupied);
@@ -103,7 +114,7 @@ fn visible_marks(
     let size = style.label_size();
     let options = MarkOptions {
         px_per_point: style.px_per_point,
-        arrows: decorations.has_arrows.then_some(paths.line_rule),
+        arrows: (decorations.has_arrows && !scene.layout().is_drawing()).then_some(paths.line_rule),
         symbols: decorations.has_nodes || decorations.has_stations,
         labels: decorations.has_labels.then_some(size),
         of: MarkedKinds::default(),

@@ -2,7 +2,8 @@
 //! none.
 
 use guideway_document::decorations::{Corner, DecorationStyle, legend, scale_bar_box};
-use guideway_scene::{DrawList, Scene, View};
+use guideway_scene::density::{ToneMap, ToneScale};
+use guideway_scene::{DrawList, FrameSize, Legend, Scene, Shading, View};
 use guideway_spline::Bounds;
 use guideway_spline::uniform::to_bezier;
 
@@ -11,23 +12,49 @@ use super::title::title;
 
 /// A legend in its corner.
 pub(crate) struct PlacedLegend {
+    /// Its shapes; empty for density, whose numbers are known after rendering.
     pub(crate) list: DrawList,
     pub(crate) bounds: Bounds<f64>,
+    pub(crate) corner: Corner,
     /// True if no path and no other decoration is below it.
     pub(crate) is_free: bool,
 }
 
-/// The legend of a scene in the first corner without paths, else in the upper left one. `None`
+/// The meaning of the colors of a picture; `None` if they have none. For density, the numbers are
+/// those of a picture with one path.
+pub(crate) fn colors_of(scene: &Scene, shading: Shading) -> Option<Legend> {
+    match shading {
+        Shading::Color => scene.legend().cloned(),
+        Shading::Density(_) => Some(ToneScale::new(ToneMap::Log).legend()),
+    }
+}
+
+/// The legend of density in the corner that [`place_legend`] found. Its box depends on its title
+/// alone, which is wider than its numbers.
+pub(crate) fn density_legend(
+    colors: &Legend,
+    corner: Corner,
+    (decorations, size): (&Decorations, FrameSize),
+    style: &DecorationStyle,
+) -> Option<DrawList> {
+    let top_px = decorations.title_band_px(style);
+    Some(legend(colors, size, top_px, corner, style)?.0)
+}
+
+/// The legend of a picture in the first corner without paths, else in the upper left one. `None`
 /// without a legend, or if it does not fit the picture.
 ///
 /// Cost: O(control points).
 pub(crate) fn place_legend(
     decorations: &Decorations,
-    scene: &Scene,
+    (scene, shading): (&Scene, Shading),
     view: &View,
     style: &DecorationStyle,
 ) -> Option<PlacedLegend> {
-    let colors = scene.legend().filter(|_| decorations.has_legend)?;
+    if !decorations.has_legend {
+        return None;
+    }
+    let colors = &colors_of(scene, shading)?;
     let size = view.size();
     let top_px = decorations.title_band_px(style);
     let mut occupied = Vec::new();
@@ -41,8 +68,12 @@ pub(crate) fn place_legend(
         let (list, bounds) = legend(colors, size, top_px, corner, style)?;
         let is_over = occupied.iter().any(|other| other.intersects(bounds));
         Some(PlacedLegend {
-            list,
+            list: match shading {
+                Shading::Color => list,
+                Shading::Density(_) => DrawList::default(),
+            },
             bounds,
+            corner,
             is_free: !is_over && !has_path(scene, view, bounds),
         })
     };

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `fonts` | a character | the first font that draws it: embedded, then of the system |
 //! | `shape` | a line of text | glyphs in visual order, in units of the font size |
-//! | `rasterize` | glyphs, position and size | coverage per pixel |
+//! | `rasterize` | glyphs, position and size | outlines, coverage per pixel |
 //!
 //! A letter that no font draws shows as a box. Text that the embedded fonts cover (Latin, Greek,
 //! Cyrillic and symbols) is the same on every computer.
@@ -14,4 +14,5 @@ mod rasterize;
 mod shape;
 
 pub use fonts::{SystemFont, system_font};
+pub(crate) use rasterize::Curve;
 pub(crate) use shape::ShapedLine;

@@ -1,4 +1,4 @@
-//! Rasterizes shaped glyphs: outlines to exact coverage per pixel.
+//! Outlines of shaped glyphs, and their exact coverage per pixel.
 
 use ab_glyph_rasterizer::{Point as RasterPoint, Rasterizer, point};
 use guideway_spline::Point;
@@ -26,28 +26,51 @@ impl ShapedLine {
         max_width_px: f64,
         mut blend: impl FnMut(i64, i64, f32),
     ) {
-        let natural_px = self.width * size_px;
-        let condense = if natural_px > max_width_px {
-            max_width_px / natural_px
-        } else {
-            1.0
-        };
         // A baseline on a whole pixel keeps the feet of letters sharp.
         let baseline = (left_middle.y + BASELINE * size_px).round();
-        for glyph in &self.glyphs {
+        for pen in self.pens((left_middle.x, baseline), size_px, max_width_px) {
+            pen.rasterize(&mut blend);
+        }
+    }
+
+    /// The outlines of the glyphs of such a line.
+    pub(crate) fn outlines(
+        &self,
+        left_middle: Point<f64>,
+        size_px: f64,
+        max_width_px: f64,
+    ) -> impl Iterator<Item = Vec<Curve>> {
+        let baseline = left_middle.y + BASELINE * size_px;
+        let pens = self.pens((left_middle.x, baseline), size_px, max_width_px);
+        pens.map(|pen| pen.curves)
+    }
+
+    /// Draws each glyph from the left end of a baseline.
+    fn pens(
+        &self,
+        (left, baseline): (f64, f64),
+        size_px: f64,
+        max_width_px: f64,
+    ) -> impl Iterator<Item = Pen> {
+        let natural_px = self.width * size_px;
+        let condense = match natural_px > max_width_px {
+            true => max_width_px / natural_px,
+            false => 1.0,
+        };
+        self.glyphs.iter().map(move |glyph| {
             let origin = Point::new(
-                left_middle.x + glyph.x * size_px * condense,
+                left + glyph.x * size_px * condense,
                 baseline - glyph.y * size_px,
             );
             let mut pen = Pen::new(origin, condense);
             pen.draw(glyph, size_px);
-            pen.rasterize(&mut blend);
-        }
+            pen
+        })
     }
 }
 
 /// A part of an outline, in pixels, y down.
-enum Curve {
+pub(crate) enum Curve {
     Line([RasterPoint; 2]),
     Quad([RasterPoint; 3]),
     Cubic([RasterPoint; 4]),

@@ -110,9 +110,10 @@ impl Prepared for PreparedOracle {
             band_bytes = band_bytes.max(band.heap_bytes());
             bands += 1;
         }
-        if let Shading::Density(tone) = style.shading {
-            density::shade(&counts, tone, style.background, frame);
-        }
+        let legend = match style.shading {
+            Shading::Color => None,
+            Shading::Density(tone) => Some(density::shade(&counts, tone, style.background, frame)),
+        };
 
         let drawn = strokes.len() as u64;
         let stroke_bytes = strokes.capacity() * size_of::<Stroke>();
@@ -125,6 +126,7 @@ impl Prepared for PreparedOracle {
             lines,
             peak_bytes: (band_bytes + stroke_bytes + count_bytes) as u64,
             bands,
+            density: legend,
             ..Report::of(NAME, &self.scene, drawn)
         })
     }

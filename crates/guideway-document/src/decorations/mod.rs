@@ -16,8 +16,7 @@
 //! | `outline` | paths, view | [`Outline`]: center lines of selected paths |
 //! | `handles` | document, view | [`Handle`]s: control points of selected paths |
 //!
-//! `arrows`, `labels`, `line_mask` and `declutter` position marks; `round_step` rounds the
-//! distances of grids and scale bars.
+//! `arrows`, `labels`, `line_mask` and `declutter` position marks.
 
 mod arrows;
 mod declutter;
@@ -30,17 +29,15 @@ mod line_mask;
 mod marks;
 mod outline;
 mod place_marks;
-mod round_step;
 mod scale_bar;
 mod style;
 
-pub use grid::{grid, grid_step_m};
+pub use grid::{grid, grid_step_m, round_step};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use legend::{Corner, legend};
 pub use marks::{Arrow, MAX_MARKED, MarkOptions, MarkedKinds, Marks};
 pub use outline::{Outline, outline, path_outline};
 pub use place_marks::marks;
-pub use round_step::round_step;
 pub use scale_bar::{scale_bar, scale_bar_box};
 pub use style::{DecorationStyle, MarkKind};

@@ -3,7 +3,7 @@
 use guideway_scene::{DrawList, TextLine, View};
 use guideway_spline::{Bounds, Point};
 
-use super::round_step::round_step;
+use super::grid::round_step;
 use super::style::DecorationStyle;
 use crate::text_format;
 

@@ -11,6 +11,11 @@ const LINE_HEIGHT: f64 = 1.2;
 /// Height of a line of the legend, in points.
 const LEGEND_LINE_POINTS: f64 = 16.0;
 
+/// Shorter side of a picture with one pixel per point, in pixels.
+const PICTURE_SIDE_PX: f64 = 1080.0;
+/// Least pixels per point of a picture. Derived: labels of 9 pixels are still read with ease.
+const LEAST_PX_PER_POINT: f64 = 0.8;
+
 /// Colors and sizes of decorations. A point is a pixel of a screen at 96 dpi.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DecorationStyle {
@@ -57,13 +62,10 @@ impl DecorationStyle {
         }
     }
 
-    /// The style for a picture of this size: larger pictures have larger texts.
+    /// The style for a picture of this size: texts grow with the shorter side.
     pub fn for_picture(size: FrameSize, background: Rgba) -> Self {
-        let px_per_point = match size.height() {
-            0..1200 => 1.0,
-            1200..2400 => 1.5,
-            _ => 2.0,
-        };
+        let side_px = f64::from(size.height().min(size.width()));
+        let px_per_point = (side_px / PICTURE_SIDE_PX).max(LEAST_PX_PER_POINT);
         Self::new(background, px_per_point)
     }
 
@@ -102,5 +104,15 @@ mod tests {
         assert_eq!(style(Rgba::WHITE).ink, Rgba::opaque(40, 40, 40));
         assert_eq!(style(dark).ink, Rgba::opaque(220, 220, 220));
         assert_eq!(style(Rgba::from_u32(0)).paper, Rgba::WHITE);
+    }
+
+    #[test]
+    fn texts_grow_with_the_picture() {
+        let line_px = |width, height| {
+            let size = FrameSize::new(width, height).unwrap();
+            DecorationStyle::for_picture(size, Rgba::WHITE).line_px()
+        };
+        assert_eq!((line_px(1920, 1080), line_px(6480, 4320)), (16.0, 64.0));
+        assert_eq!(line_px(400, 300), 12.8);
     }
 }

@@ -10,7 +10,6 @@
 
 mod column;
 mod condition;
-mod error;
 mod natural;
 mod parse;
 
@@ -19,7 +18,7 @@ use guideway_scene::Table;
 
 pub use self::column::Column;
 use self::condition::Condition;
-pub use self::error::QueryError;
+pub use self::parse::QueryError;
 use crate::PathSet;
 
 /// A condition on the paths, nodes or stations of one layout.

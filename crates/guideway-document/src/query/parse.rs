@@ -5,7 +5,16 @@ use guideway_scene::Table;
 
 use super::column::Column;
 use super::condition::{Comparison, Condition, Operator};
-use super::error::QueryError;
+
+/// The reason why a query is invalid.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("at character {at}: {what}")]
+pub struct QueryError {
+    /// Position of the error, in characters from 1.
+    pub at: usize,
+    /// The problem and a remedy.
+    pub what: String,
+}
 
 /// Deepest nesting of parentheses and `not`: each level recurses once, and the stack is finite.
 const MAX_DEPTH: usize = 100;

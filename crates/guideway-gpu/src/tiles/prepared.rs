@@ -144,9 +144,10 @@ impl Prepared for PreparedTiles {
                 }
             })?;
         }
+        let mut legend = None;
         if let Shading::Density(tone) = style.shading {
             let start = Instant::now();
-            density::shade(&counts, tone, style.background, frame);
+            legend = Some(density::shade(&counts, tone, style.background, frame));
             result.stages.push(Stage::host("shade", elapsed_ms(start)));
         }
         let drawn = count_drawn_paths(&self.scene, &context, &result);
@@ -155,6 +156,7 @@ impl Prepared for PreparedTiles {
             stages: result.stages,
             peak_bytes: self.device.memory.take_peak_bytes(),
             bands: result.windows.max(1),
+            density: legend,
             ..Report::of(NAME, &scene, drawn)
         })
     }

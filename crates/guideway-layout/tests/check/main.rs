@@ -4,7 +4,39 @@ mod differences;
 mod driven;
 mod findings;
 mod in_place;
-mod page;
 mod pairs;
 mod sketch;
 mod units;
+
+use guideway_layout::Code;
+
+/// The page that explains every code.
+const PAGE: &str = include_str!("../../../../docs/diagnostics.md");
+
+/// Heading and text of each entry.
+fn entries() -> Vec<(&'static str, &'static str)> {
+    let sections = PAGE.split("\n### ").skip(1);
+    sections
+        .map(|s| s.split_once('\n').expect("a heading ends with its line"))
+        .collect()
+}
+
+#[test]
+fn entries_match_the_codes_in_order() {
+    let headings: Vec<_> = entries().iter().map(|(heading, _)| *heading).collect();
+    let expected: Vec<_> = Code::ALL
+        .iter()
+        .map(|code| format!("`{code}` ({})", code.severity()))
+        .collect();
+    assert_eq!(headings, expected);
+}
+
+#[test]
+fn every_entry_has_meaning_and_remedy() {
+    for (code, (_, text)) in Code::ALL.iter().zip(entries()) {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let meaning = code.meaning();
+        assert!(words.join(" ").contains(meaning), "{code}: {meaning}");
+        assert!(text.contains("Remedy: "), "{code} has no remedy");
+    }
+}

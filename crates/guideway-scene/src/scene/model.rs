@@ -10,7 +10,11 @@ use super::bounds::curve_bounds;
 use super::error::{NoOpaqueColor, SceneError};
 use crate::color::Rgba;
 use crate::color_by::{self, ColorBy, Legend};
+use crate::ramp::NumberColors;
 use crate::table::Table;
+
+/// Color of walls and doors: a contrast of 3:1 on white paper, and 5:1 on dark one.
+const STRUCTURE: Rgba = Rgba::opaque(144, 144, 144);
 
 /// Colors and visible level of a scene.
 #[derive(Clone, Debug, Default)]
@@ -19,8 +23,13 @@ pub struct SceneOptions {
     pub color: Option<Rgba>,
     /// Colors every path by a column instead.
     pub color_by: Option<ColorBy>,
+    /// Colors of the numbers of that column.
+    pub numbers: NumberColors,
     /// Draws only the level with this name or id.
     pub level: Option<String>,
+    /// Draws walls, doors and lanes of humans in gray below the ways of vehicles, unless a column
+    /// decides the colors.
+    pub has_gray_structure: bool,
 }
 
 /// A layout with every path's style resolved. Only [`Scene::edit`] changes its paths.
@@ -77,6 +86,27 @@ pub(crate) enum Colors {
     Each(Vec<Rgba>),
 }
 
+impl Colors {
+    /// Makes paths gray that no vehicle drives. Returns `true` if there are any beside others.
+    fn gray_structure(&mut self, layout: &Layout) -> bool {
+        let is_structure = |row: &usize| !layout.paths.is_driven(*row);
+        let rows: Vec<usize> = match layout.paths.column("element") {
+            Some(_) => (0..layout.paths.len()).filter(is_structure).collect(),
+            None => Vec::new(),
+        };
+        if rows.is_empty() || rows.len() == layout.paths.len() {
+            return false;
+        }
+        let mut each = match std::mem::replace(self, Self::One(STRUCTURE)) {
+            Self::One(color) => vec![color; layout.paths.len()],
+            Self::Each(colors) => colors,
+        };
+        rows.into_iter().for_each(|row| each[row] = STRUCTURE);
+        *self = Self::Each(each);
+        true
+    }
+}
+
 impl Scene {
     /// Resolves the styles of a layout.
     ///
@@ -85,11 +115,11 @@ impl Scene {
     pub fn new(layout: Arc<Layout>, options: &SceneOptions) -> Result<Self, SceneError> {
         let level = visible_level(&layout, options.level.as_deref())?;
         let states = states(&layout, level);
-        let draw_order = draw_order(&layout, &states);
+        let mut draw_order = draw_order(&layout, &states);
         let base = options.color.unwrap_or(Rgba::BLACK);
-        let (colors, legend) = match &options.color_by {
+        let (mut colors, legend) = match &options.color_by {
             Some(by) => {
-                let resolved = color_by::resolve(&layout, by, &draw_order);
+                let resolved = color_by::resolve(&layout, by, &options.numbers, &draw_order);
                 let (colors, legend) = resolved.map_err(|unknown| SceneError::UnknownColumn {
                     asked: by.column.clone(),
                     known: unknown.known,
@@ -98,6 +128,10 @@ impl Scene {
             }
             None => (own_colors(&layout, base), None),
         };
+        let is_plain = options.color_by.is_none() && options.has_gray_structure;
+        if is_plain && colors.gray_structure(&layout) {
+            draw_order.sort_by_key(|&path| layout.paths.is_driven(path as usize));
+        }
         Ok(Self {
             layout,
             colors,

@@ -39,7 +39,8 @@ impl LayerLook {
         all: MarkOptions,
         document: Option<&Document>,
     ) -> MarkOptions {
-        let has_arrows = self.has_arrows && !document.is_some_and(is_drawing);
+        let has_arrows =
+            self.has_arrows && !document.is_some_and(|document| document.layout().is_drawing());
         MarkOptions {
             arrows: all.arrows.filter(|_| has_arrows),
             labels: all.labels.filter(|_| self.has_names),
@@ -59,15 +60,6 @@ impl LayerLook {
             ..all.clone()
         }
     }
-}
-
-/// Formats of drawings, whose lines have no direction.
-const DRAWING_FORMATS: [&str; 3] = ["DXF", "SVG", "ROS map"];
-
-/// Returns `true` if a document is a drawing that is no network yet.
-fn is_drawing(document: &Document) -> bool {
-    let layout = document.layout();
-    DRAWING_FORMATS.contains(&&*layout.provenance.format) && layout.nodes.is_empty()
 }
 
 #[cfg(test)]

@@ -9,14 +9,13 @@ use clap::{CommandFactory, Parser, Subcommand};
 use guideway::formats::Format;
 use guideway::layout::{UserError, shown_lines};
 
-use super::error::parser_error;
-use super::exit::{ERROR, Exit};
+use super::error::{ERROR, Exit, parser_error};
 use super::output::Output;
 #[cfg(feature = "viewer")]
 use super::view;
 use super::{
-    bench, check, convert, default_command, demo, diff, edit, generate, info, interrupt, limits,
-    methods, network, render, reproduce, route, shell, threads,
+    bench, check, convert, default_command, demo, diff, edit, generate, info, limits, methods,
+    network, process, render, reproduce, route, shell,
 };
 use crate::out_of_memory;
 
@@ -62,7 +61,7 @@ enum Command {
     /// Show layout files in a window and edit them
     #[cfg(feature = "viewer")]
     View(view::Args),
-    /// Draw layout files as a PNG or SVG picture
+    /// Draw layout files as a PNG, SVG or PDF picture
     Render(Box<render::Args>),
     /// Summarize the content of layout files
     Info(info::Args),
@@ -86,12 +85,14 @@ enum Command {
     Bench(Box<bench::Args>),
     /// Measure the tables and figures of the thesis on this computer
     Reproduce(reproduce::Args),
-    /// Draw the built-in example site
+    /// Draw a built-in site, a crowd of paths and the findings in a faulty site
     Demo(demo::Args),
     /// Print the completion script of a shell
     Completions(shell::CompletionsArgs),
     /// Print the manual page, or write all manual pages to a folder
     Man(shell::ManArgs),
+    /// Print the JSON Schema of the answer of a command with --json
+    Schema(shell::SchemaArgs),
 }
 
 /// Runs the command and returns its exit code.
@@ -111,7 +112,7 @@ pub(crate) fn main() -> ExitCode {
         out_of_memory::report_as_json();
     }
     limits::set(&cli.limit, &cli.formats);
-    let ready = interrupt::watch().and_then(|()| threads::start());
+    let ready = process::watch().and_then(|()| process::start_threads());
     match ready.and_then(|()| run(&cli.command, &out)) {
         Ok(exit) => ExitCode::from(exit.code()),
         Err(error) => {
@@ -140,6 +141,7 @@ fn run(command: &Command, out: &Output) -> Result<Exit, UserError> {
         Command::Demo(args) => demo::run(args, out),
         Command::Completions(args) => shell::completions(args, Cli::command(), out),
         Command::Man(args) => shell::man(args, Cli::command(), out),
+        Command::Schema(args) => shell::schema(args, out),
     }
 }
 

@@ -9,9 +9,10 @@ use guideway::layout::{Layout, UserError, shown_path};
 use guideway::{NewFile, replace_file};
 use serde_json::{Value, json};
 
-use super::exit::Exit;
+use super::error::Exit;
 use super::input::{self, Input};
 use super::output::Output;
+use super::progress_bar::{ProgressBar, plan};
 use super::stdout::Stdout;
 use super::{limits, stdout, text};
 
@@ -116,11 +117,21 @@ pub(super) fn write(
     target: Target,
     layout: &Layout,
     output: &Path,
+    progress: &ProgressBar,
 ) -> Result<(Losses, u64), UserError> {
     Ok(replace_file(output, |file| {
-        let losses = write_into(file, target, layout, output)?;
+        file.set_limit(limits::limits().output_bytes);
+        let written = target.write(layout, &mut progress.counted(&mut *file));
+        let losses = written.map_err(|problem| write_error(output, problem))?;
         Ok::<_, WriteError>((losses, file.bytes()))
     })?)
+}
+
+fn write_error(output: &Path, problem: WriteProblem) -> WriteError {
+    WriteError {
+        path: output.to_owned(),
+        problem,
+    }
 }
 
 /// Writes the layout into a new file for `output`. Returns the losses of the format.
@@ -131,22 +142,20 @@ pub(super) fn write_into(
     output: &Path,
 ) -> Result<Losses, WriteError> {
     file.set_limit(limits::limits().output_bytes);
-    let fail = |problem: WriteProblem| WriteError {
-        path: output.to_owned(),
-        problem,
-    };
-    target.write(layout, file).map_err(fail)
+    let written = target.write(layout, file);
+    written.map_err(|problem| write_error(output, problem))
 }
 
 /// Writes the file to standard output.
-fn write_stdout(target: Target, layout: &Layout) -> Result<(Losses, u64), UserError> {
+fn write_stdout(
+    target: Target,
+    layout: &Layout,
+    progress: &ProgressBar,
+) -> Result<(Losses, u64), UserError> {
     let mut out = Stdout::lock();
-    let losses = target.write(layout, &mut out);
+    let losses = target.write(layout, &mut progress.counted(&mut out));
     let losses = losses.and_then(|losses| Ok(out.flush().map(|()| losses)?));
-    let losses = losses.map_err(|problem| WriteError {
-        path: "-".into(),
-        problem,
-    })?;
+    let losses = losses.map_err(|problem| write_error(Path::new("-"), problem))?;
     Ok((losses, out.bytes()))
 }
 
@@ -161,13 +170,15 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         true => stdout::check(out, (args.to == Some(Target::Arrow)).then_some("Arrow"))?,
         false => input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?,
     }
+    // Reading, merging, writing.
+    plan(args.inputs.len(), &[5.0, 0.1, 5.0]);
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let of_source = || target_to_save(&layout, &args.output);
     let target = args.to.map_or_else(of_source, Ok)?;
     let progress = out.progress(format!("writing {}", shown_path(&args.output)));
     let (losses, bytes) = match is_stdout {
-        true => write_stdout(target, &layout)?,
-        false => write(target, &layout, &args.output)?,
+        true => write_stdout(target, &layout, &progress)?,
+        false => write(target, &layout, &args.output, &progress)?,
     };
     let write_ms = progress.finish();
 

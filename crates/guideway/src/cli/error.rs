@@ -1,4 +1,5 @@
-//! Errors of the command itself. Each crate converts its own errors to [`UserError`].
+//! Errors of the command itself, and exit codes. Each crate converts its own errors to
+//! [`UserError`].
 
 use std::path::Path;
 
@@ -35,3 +36,33 @@ pub(crate) fn json_error(error: &serde_json::Error, remedy: &str) -> UserError {
     let message = format!("cannot write the report as JSON: {error}");
     UserError::new("json", message, remedy)
 }
+
+/// Outcome of a subcommand that ran to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// Success.
+    Clean,
+    /// `check` found what it must not pass, or `diff --exit-code` found differences.
+    Found,
+    /// `check` could read no file, or `bench` measured no method.
+    Failed,
+    /// Ctrl-C stopped the command; its results so far are saved.
+    Interrupted,
+}
+
+impl Exit {
+    /// The exit code of the process.
+    pub(crate) fn code(self) -> u8 {
+        match self {
+            Self::Clean => 0,
+            Self::Found => 1,
+            Self::Failed => ERROR,
+            Self::Interrupted => INTERRUPTED as u8,
+        }
+    }
+}
+
+/// Exit code of every error.
+pub(crate) const ERROR: u8 = 2;
+/// Exit code after Ctrl-C: 128 plus the number of the signal, the convention of shells.
+pub(crate) const INTERRUPTED: i32 = 130;

@@ -9,11 +9,13 @@ use guideway::layout::{UserError, Value, shown_path};
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
 use serde_json::json;
 
-use super::exit::Exit;
+use super::error::Exit;
 use super::output::Output;
 use super::progress_bar::ProgressBar;
-use super::{arrow, text, values};
+use super::{input, text, values};
 
+/// Extensions of Arrow files.
+const EXTENSIONS: [&str; 2] = ["arrow", "feather"];
 /// Paths between two updates of the progress.
 const PROGRESS_STEP: usize = 4096;
 
@@ -41,7 +43,7 @@ enum Dataset {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    arrow::check_output(&args.output)?;
+    check_output(&args.output)?;
     let progress = out.progress(format!("writing {}", shown_path(&args.output)));
     let (file, paths) = (&args.output, args.paths);
     let bytes = match args.dataset {
@@ -74,6 +76,22 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         )
     })?;
     Ok(Exit::Clean)
+}
+
+/// Rejects an output that is not an Arrow file, before any long work.
+fn check_output(output: &Path) -> Result<(), UserError> {
+    let extension = output.extension().unwrap_or_default();
+    if !EXTENSIONS.iter().any(|e| extension.eq_ignore_ascii_case(e)) {
+        return Err(UserError::new(
+            "target-format",
+            format!(
+                "{}: not the name of an Arrow file, which ends in .arrow or .feather",
+                shown_path(output)
+            ),
+            "Rename the output, such as `site.arrow`; `guideway render` writes pictures",
+        ));
+    }
+    input::check_output(None, output)
 }
 
 /// Writes the paths. Returns the size of the file in bytes.

@@ -4,7 +4,7 @@ use guideway::layout::UserError;
 use guideway::{AUTO, Available, MethodOption};
 use serde_json::{Value, json};
 
-use super::exit::Exit;
+use super::error::Exit;
 use super::output::Output;
 
 /// Width of the column of names: the longest name of a method.

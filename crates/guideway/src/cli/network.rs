@@ -9,7 +9,7 @@ use guideway::network::{AnalyzeOptions, BuildOptions, LayerRule, NoteSource, ana
 use serde_json::{Value, json};
 
 use super::convert::{target_to_save, write};
-use super::exit::Exit;
+use super::error::Exit;
 use super::input::{self, Input};
 use super::output::{Output, save};
 use super::{text, values};
@@ -133,7 +133,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     found.append(analyze(&made.layout, &AnalyzeOptions::default()));
     let check_ms = progress.finish();
     let progress = out.progress(format!("writing {}", shown_path(&args.output)));
-    let (losses, bytes) = write(target, &made.layout, &args.output)?;
+    let (losses, bytes) = write(target, &made.layout, &args.output, &progress)?;
     let write_ms = progress.finish();
     if let Some(file) = &args.save_map {
         save(file, options.to_toml()?.as_bytes())?;

@@ -2,35 +2,69 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
+use guideway::compose::VectorFormat;
 use guideway::formats::Target;
 use guideway::layout::{UserError, shown_path};
 
 use super::error::usage_error;
+use super::stdout::is_stdout;
 
-/// Returns `true` if a file is to hold SVG.
-pub(crate) fn is_svg(path: &Path) -> bool {
-    has_extension(path, "svg")
+/// A format of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PictureFormat {
+    /// Pixels
+    Png,
+    /// Curves, with texts as letters
+    Svg,
+    /// Curves, with texts as outlines
+    Pdf,
 }
 
-fn has_extension(path: &Path, extension: &str) -> bool {
-    path.extension()
-        .is_some_and(|own| own.eq_ignore_ascii_case(extension))
-}
-
-/// Rejects a file whose extension promises another kind of picture than PNG or SVG. Devices, such
-/// as `/dev/null`, have no extension.
-pub(crate) fn check_extension(path: &Path) -> Result<(), UserError> {
-    let is_device = path.exists() && !path.is_file();
-    if has_extension(path, "png") || is_svg(path) || is_device {
-        return Ok(());
+impl PictureFormat {
+    /// The format of vector graphics; `None` for pixels.
+    pub(crate) fn vector(self) -> Option<VectorFormat> {
+        match self {
+            Self::Png => None,
+            Self::Svg => Some(VectorFormat::Svg),
+            Self::Pdf => Some(VectorFormat::Pdf),
+        }
     }
-    Err(usage_error(
-        format!("{}: pictures are PNG or SVG", shown_path(path)),
-        format!(
-            "Name it {} or .svg; other programs convert these",
-            shown_path(&path.with_extension("png"))
-        ),
-    ))
+
+    /// The format that the extension of a file promises.
+    fn promised(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        let all = Self::value_variants().iter();
+        let is_named = |format: &&Self| {
+            let name = format.to_possible_value();
+            name.is_some_and(|name| name.matches(extension, true))
+        };
+        all.copied().find(|format| is_named(&format))
+    }
+
+    /// The format of an output: that of its extension, or of `--to` where it has none.
+    ///
+    /// # Errors
+    /// When the extension promises another format, or none that pictures are written in. Devices,
+    /// such as `/dev/null`, and standard output have no extension.
+    pub(crate) fn of_output(path: &Path, to: Option<Self>) -> Result<Self, UserError> {
+        let is_nameless = is_stdout(path) || (path.exists() && !path.is_file());
+        match (Self::promised(path), to) {
+            (Some(promised), Some(to)) if promised != to => Err(usage_error(
+                format!("{}: the extension contradicts --to", shown_path(path)),
+                "Omit --to, or write another extension",
+            )),
+            (Some(format), _) | (None, Some(format)) => Ok(format),
+            (None, None) if is_nameless => Ok(Self::Png),
+            (None, None) => Err(usage_error(
+                format!("{}: pictures are PNG, SVG or PDF", shown_path(path)),
+                format!(
+                    "Name it {}, .svg or .pdf; other programs convert these",
+                    shown_path(&path.with_extension("png"))
+                ),
+            )),
+        }
+    }
 }
 
 /// The name of a picture of a layout file: `site.png` for `halls/site.lif.json`, in the current
@@ -70,13 +104,25 @@ mod tests {
 
     #[test]
     fn extension_says_what_a_picture_is() {
-        for good in ["a.png", "A.PNG", "b.svg", "/dev/null"] {
-            assert!(check_extension(Path::new(good)).is_ok(), "{good}");
+        use PictureFormat::{Pdf, Png, Svg};
+        let format = |path: &str, to| PictureFormat::of_output(Path::new(path), to);
+        for (good, to, expected) in [
+            ("a.png", None, Png),
+            ("A.PNG", None, Png),
+            ("b.svg", None, Svg),
+            ("b.pdf", Some(Pdf), Pdf),
+            ("noext", Some(Svg), Svg),
+            ("/dev/null", None, Png),
+            ("-", None, Png),
+            ("-", Some(Svg), Svg),
+        ] {
+            assert_eq!(format(good, to).unwrap(), expected, "{good}");
         }
-        for bad in ["a.jpg", "plan.pdf", "noext", "a.png.bak"] {
-            let error = check_extension(Path::new(bad)).unwrap_err();
+        for bad in ["a.jpg", "noext", "a.png.bak"] {
+            let error = format(bad, None).unwrap_err();
             assert!(error.message.contains(bad), "{error}");
         }
+        assert!(format("a.png", Some(Svg)).is_err());
     }
 
     #[test]

@@ -1,12 +1,13 @@
-//! `guideway completions` and `guideway man`: files for the installation of the command.
+//! `guideway completions`, `guideway man` and `guideway schema`: descriptions of the command for
+//! shells, people and programs.
 
 use std::path::{Path, PathBuf};
 
 use clap_complete::Shell;
 use guideway::layout::{UserError, shown_path};
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::exit::Exit;
+use super::error::{Exit, json_error, usage_error};
 use super::input::check_no_stdout;
 use super::output::{self, Output};
 
@@ -20,6 +21,39 @@ pub(crate) struct CompletionsArgs {
 pub(crate) struct ManArgs {
     /// Folder for one page per subcommand
     dir: Option<PathBuf>,
+}
+
+/// JSON Schema of all answers: `$defs` has one per command.
+const ANSWERS: &str = include_str!("../../docs/answers.schema.json");
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct SchemaArgs {
+    /// The command, or `error`; all of them without it
+    command: Option<String>,
+}
+
+pub(crate) fn schema(args: &SchemaArgs, out: &Output) -> Result<Exit, UserError> {
+    let remedy = "Report this as a bug of the program";
+    let schema = serde_json::from_str(ANSWERS).map_err(|error| json_error(&error, remedy));
+    let mut schema: Value = schema?;
+    if let Some(command) = &args.command {
+        if schema["$defs"].get(command).is_none() {
+            let known = schema["$defs"].as_object().into_iter().flatten();
+            let known: Vec<&str> = known.map(|(name, _)| name.as_str()).collect();
+            return Err(usage_error(
+                format!("`{command}` is no command with an answer in JSON"),
+                format!("Name one of {}", known.join(", ")),
+            ));
+        }
+        schema = json!({
+            "$schema": schema["$schema"],
+            "$ref": format!("#/$defs/{command}"),
+            "$defs": schema["$defs"],
+        });
+    }
+    let text = serde_json::to_string_pretty(&schema).map_err(|error| json_error(&error, remedy))?;
+    print_or_report(out, "schema", "schema", (text + "\n").as_bytes())?;
+    Ok(Exit::Clean)
 }
 
 pub(crate) fn completions(

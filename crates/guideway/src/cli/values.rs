@@ -5,10 +5,10 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use guideway::AUTO;
 use guideway::layout::Limits;
-use guideway::scene::{Frame, FrameSize};
+use guideway::scene::{Frame, FrameSize, Palette, ParseColorError, Rgba};
 use guideway::spline::Point;
 
-use super::threads::MAX_THREADS;
+use super::process::MAX_THREADS;
 
 /// The size of a picture that fits one frame, such as `1920x1080`.
 pub(crate) fn frame_size(text: &str) -> Result<FrameSize, String> {
@@ -38,6 +38,35 @@ pub(crate) fn size(text: &str) -> Result<FrameSize, String> {
             FrameSize::MAX_SIDE
         )
     })
+}
+
+/// A background: a color, or `none`.
+pub(crate) fn background(text: &str) -> Result<Rgba, String> {
+    match text {
+        // White where a program drops the transparency.
+        "none" => Ok(Rgba::WHITE.with_opacity(0.0)),
+        color => color
+            .parse()
+            .map_err(|error: ParseColorError| error.to_string()),
+    }
+}
+
+/// The name of a palette.
+pub(crate) fn palette() -> impl TypedValueParser<Value = Palette> {
+    PossibleValuesParser::new(Palette::ALL.map(Palette::name)).try_map(|name| {
+        let mut all = Palette::ALL.into_iter();
+        all.find(|palette| palette.name() == name)
+            .ok_or("the list of palettes has this name")
+    })
+}
+
+/// A range of numbers such as `0..2`.
+pub(crate) fn range(text: &str) -> Result<[f64; 2], String> {
+    let ends = text.split_once("..").and_then(|(low, high)| {
+        let ends = [low.trim().parse().ok()?, high.trim().parse().ok()?];
+        (ends.iter().all(|end: &f64| end.is_finite()) && ends[0] < ends[1]).then_some(ends)
+    });
+    ends.ok_or_else(|| "write the lower and the higher end, such as 0..2".to_owned())
 }
 
 /// A point such as `12.5,-3`.

@@ -90,15 +90,15 @@ fn pictures_have_the_ending_of_what_they_are() {
     let folder = tempfile::tempdir().unwrap();
     let site = site();
     let site = site.to_str().unwrap();
-    for name in ["a.jpg", "a.pdf", "plan"] {
+    for name in ["a.jpg", "plan"] {
         for args in [
             vec!["render", site, "-o", name],
-            vec!["demo", "-o", name],
             vec!["diff", site, site, "-o", name],
+            vec!["check", site, "--picture", name],
         ] {
             let out = in_folder(folder.path(), &args);
             assert_eq!(out.status.code(), Some(2), "{args:?}");
-            assert!(stderr(&out).contains("PNG or SVG"), "{}", stderr(&out));
+            assert!(stderr(&out).contains("PNG, SVG or PDF"), "{}", stderr(&out));
         }
     }
     assert!(names_in(folder.path()).is_empty(), "nothing was written");

@@ -49,7 +49,7 @@ fn names_do_not_steer_the_terminal() {
         ],
         &["render", "none\u{1b}.json", "-o", "no\u{1b}/a.png"],
         &["check", name, "--clearance", "\u{1b}"],
-        &["demo", "-o", "d\u{1b}\u{202e}.png"],
+        &["demo", "-o", "d\u{1b}\u{202e}", "--paths", "100"],
         &["generate", "d1", "--paths", "4", "-o", "g\u{1b}.arrow"],
         &["man", "m\u{1b}"],
         &["bench", "none\u{1b}.json"],

@@ -104,6 +104,9 @@ fn each_style_option_changes_the_picture() {
         &["--color", "ff0000"],
         &["--background", "#000000"],
         &["--color-by", "vehicle_type"],
+        &["--color-by", "maxSpeed", "--palette", "viridis"],
+        &["--color-by", "maxSpeed", "--range", "0..2"],
+        &["--background", "none"],
         &["--shade", "density"],
         &["--shade", "density", "--tone", "linear"],
         &["--shade", "density", "--tone", "equalized"],
@@ -127,6 +130,13 @@ fn rejects_invalid_values_with_an_example() {
         (&["--fit", "--scale", "2"], "--scale 40"),
         (&["--color", "red"], "ffcc00"),
         (&["--tone", "log"], "--shade density"),
+        (&["--legend"], "--color-by maxSpeed"),
+        (&["--color-by", "maxSpeed", "--range", "2..1"], "0..2"),
+        (
+            &["--color-by", "maxSpeed", "--palette", "rainbow"],
+            "viridis",
+        ),
+        (&["--range", "0..2"], "--color-by"),
         (&["--min-px", "5", "--max-px", "2"], "--min-px 1"),
         (&["--line-rule", "thesis", "--width", "1"], "--width 0.2"),
         (&["--level", "attic"], "hall (Hall), mezzanine (Mezzanine)"),
@@ -153,28 +163,63 @@ fn rejects_invalid_values_with_an_example() {
 }
 
 #[test]
-fn demo_needs_no_file() {
+fn demo_leaves_pictures_and_commands_that_give_more() {
     let folder = tempfile::tempdir().unwrap();
-    let output = command()
-        .arg("demo")
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
+    let in_folder = |args: &[&str]| {
+        let mut all = command();
+        all.args(args).current_dir(folder.path()).output().unwrap()
+    };
+    let output = in_folder(&["demo", "--paths", "20k"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let said = stdout(&output);
-    for part in ["demo.png", "paths drawn", "took ", "guideway render"] {
-        assert!(said.contains(part), "{part} in {said}");
+    let demo = folder.path().join("guideway-demo");
+    assert_eq!(
+        names_in(&demo),
+        [
+            "crowd.png",
+            "faulty.lif.json",
+            "findings.png",
+            "findings.txt",
+            "site.lif.json",
+            "site.png"
+        ]
+    );
+    for picture in ["crowd.png", "findings.png", "site.png"] {
+        assert!(ink(&read_png(&demo.join(picture)).2) > 10_000, "{picture}");
     }
-    assert!(ink(&read_png(&folder.path().join("demo.png")).2) > 10_000);
-
-    let other = folder.path().join("other.png");
-    let output = command()
-        .args(["demo", "--json", "-o"])
-        .arg(&other)
-        .output()
-        .unwrap();
+    let findings = fs::read_to_string(demo.join("findings.txt")).unwrap();
+    for kind in [
+        "implausible",
+        "node-gap",
+        "unknown-node",
+        "bad-knots",
+        "one-way-part",
+    ] {
+        assert!(findings.contains(kind), "{kind} in {findings}");
+    }
+    let said = stdout(&output);
+    let next: Vec<&str> = said
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("guideway "))
+        .collect();
+    assert_eq!(next.len(), 3, "{said}");
+    for line in next {
+        let args: Vec<&str> = line.split(' ').collect();
+        let output = in_folder(&args);
+        assert!(
+            output.status.code() < Some(2),
+            "{line}: {}",
+            stderr(&output)
+        );
+    }
+    let made = names_in(folder.path());
+    assert_eq!(
+        made,
+        ["docks.png", "faults.svg", "guideway-demo", "route.pdf"]
+    );
+    let output = in_folder(&["demo", "--json", "--paths", "100", "-o", "other"]);
     let keys = [
         "output",
+        "files",
         "paths.drawn",
         "paths.total",
         "method.name",
@@ -228,7 +273,7 @@ fn method_without_strips_rejects_a_large_picture() {
 }
 
 #[test]
-fn plain_is_the_default() {
+fn plain_is_one_style_whatever_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
     let bytes = |name: &str, more: &[&str]| {
         let picture = folder.path().join(name);
@@ -237,8 +282,11 @@ fn plain_is_the_default() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         fs::read(&picture).unwrap()
     };
-    assert!(bytes("a.png", &[]) == bytes("b.png", &["--plain"]));
-    assert!(bytes("a.svg", &[]) == bytes("b.svg", &["--plain"]));
+    let given = ["--width", "0.1", "--min-px", "1.5", "--max-px", "12"];
+    for name in ["a.png", "a.svg"] {
+        assert!(bytes(name, &given) == bytes(name, &["--plain"]), "{name}");
+        assert!(bytes(name, &[]) != bytes(name, &["--plain"]), "{name}");
+    }
     let output = render(&folder.path().join("c.png"), &["--plain", "--grid"]);
     assert_eq!(output.status.code(), Some(2));
 }

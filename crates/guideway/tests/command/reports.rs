@@ -61,6 +61,7 @@ fn info_summarizes_the_file() {
         "LIF 1.0",
         "10 m",
         "maxSpeed (m/s)",
+        "maxSpeed 1.5 m/s",
         "floor (1 path)",
         "took ",
     ] {
@@ -77,6 +78,7 @@ fn info_summarizes_the_file() {
             "source_counts",
             "paths",
             "two_way_paths",
+            "kinds",
             "segments",
             "control_points",
             "nodes",
@@ -99,6 +101,11 @@ fn info_summarizes_the_file() {
     );
     assert_eq!((&report["paths"], &report["nodes"]), (&json!(1), &json!(2)));
     assert!((report["length_m"].as_f64().unwrap() - 10.0).abs() < 1e-5);
+    let kind = &report["kinds"][0];
+    assert_eq!(
+        (&kind["name"], &kind["paths"]),
+        (&json!("one-way"), &json!(1))
+    );
     let speeds = report["attributes"]["paths"].as_array().unwrap();
     let speed = speeds.iter().find(|c| c["name"] == "maxSpeed").unwrap();
     has_keys(

@@ -1,11 +1,15 @@
-//! The example repository: its site passes its own checks, and git shows changes in words by the
-//! commands of its README.
+//! The example site is the output of its generator. The example repository: its site passes its own
+//! checks, and git shows changes in words by the commands of its README.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use crate::support::{command, stderr, stdout};
+
+#[expect(dead_code, reason = "`main` is not called here")]
+#[path = "../../examples/make_site/main.rs"]
+mod make_site;
 
 fn example() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/site-repository")
@@ -107,4 +111,32 @@ fn git_difftool_shows_the_change_in_words() {
         said.contains("dock--south-east") && said.contains("1.2 m/s -> 0.9 m/s"),
         "{said}"
     );
+}
+
+#[test]
+fn committed_site_equals_generated_site() {
+    let committed = include_str!("../../examples/site.lif.json");
+    assert!(
+        committed == make_site::site(),
+        "run `cargo run --example make_site > crates/guideway/examples/site.lif.json`"
+    );
+}
+
+#[test]
+fn campus_repeats_the_site_with_distinct_names() {
+    let read = |text: &str| {
+        let options = guideway::formats::ReadOptions::default();
+        guideway::formats::read_bytes("site.lif.json", text.as_bytes(), &options)
+            .unwrap_or_else(|problem| panic!("{problem}"))
+    };
+    let (one, six) = (read(&make_site::site()), read(&make_site::campus(3, 2)));
+    assert_eq!(six.paths.len(), 6 * one.paths.len());
+    assert_eq!(six.nodes.len(), 6 * one.nodes.len());
+    assert_eq!(six.stations.len(), 6 * one.stations.len());
+    assert!(six.diagnostics.is_empty(), "all names are known and unique");
+    let (small, large) = (
+        one.paths.hull_bounds().unwrap(),
+        six.paths.hull_bounds().unwrap(),
+    );
+    assert!(large.max.x - small.max.x == 300.0 && large.max.y - small.max.y == 95.0);
 }

@@ -234,6 +234,10 @@ impl Prepared for CpuPrepared {
             lines: pipeline.line_count,
             peak_bytes: memory.own_bytes + picture_bytes + pipeline.peak_bytes,
             bands,
+            density: tones
+                .as_ref()
+                .filter(|_| style.shading != Shading::Color)
+                .map(|(_, _, tones)| tones.legend()),
             ..Report::of(NAME, scene, pipeline.path_count)
         })
     }

@@ -6,7 +6,7 @@ use guideway_bench::{Contestant, StartError, compare};
 
 use super::args::Args;
 use super::{text, tools};
-use crate::cli::exit::Exit;
+use crate::cli::error::Exit;
 use crate::cli::input;
 use crate::cli::output::{self, Output, REPORT_VERSION};
 

@@ -50,6 +50,9 @@ pub(crate) struct Args {
     /// Save the findings as known ones for --baseline; they do not count
     #[arg(long, value_name = "FILE")]
     pub(super) write_baseline: Option<PathBuf>,
+    /// Draw the findings of one file to a PNG, SVG or PDF file
+    #[arg(long, value_name = "FILE")]
+    pub(super) picture: Option<PathBuf>,
     /// Findings to show per kind; JSON and SARIF hold more
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub(super) show: usize,

@@ -8,8 +8,8 @@ use guideway::layout::{Diagnostics, UserError, shown_path};
 use serde::{Deserialize, Serialize};
 
 use super::fingerprint::fingerprint;
+use crate::cli::input::{relative, resolved};
 use crate::cli::output::{REPORT_VERSION, save_report};
-use crate::cli::relative_path::{relative, resolved};
 
 /// Name of the report in a baseline.
 const REPORT: &str = "baseline";

@@ -10,7 +10,7 @@ use guideway::layout::{Diagnostics, Place, Severity, UserError};
 use super::baseline::Entry;
 use super::codes::FailOn;
 use super::config::Rules;
-use crate::cli::exit::Exit;
+use crate::cli::error::Exit;
 use crate::cli::input::Input;
 use crate::cli::text;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use guideway::layout::{Diagnostics, UserError, check_across};
+use guideway::layout::{Diagnostics, Layout, UserError, check_across};
 
 use super::args::{Args, Format};
 use super::baseline::{self, Baseline};
@@ -10,11 +10,12 @@ use super::config::Configs;
 use super::findings::{CheckedFile, exit};
 use super::one_file::{Checked, apply, check_file};
 use super::report::{Times, report};
-use super::sarif;
-use crate::cli::error::usage_error;
-use crate::cli::exit::Exit;
+use super::{picture, sarif};
+use crate::cli::error::{Exit, usage_error};
 use crate::cli::input;
 use crate::cli::output::{Output, print};
+use crate::cli::picture_file::PictureFormat;
+use crate::cli::progress_bar::plan;
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     if out.is_json() && args.format == Format::Sarif {
@@ -32,7 +33,17 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     }
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
     input::check_stdin(&args.inputs)?;
-    let (mut files, times) = checked(args, out)?;
+    if let Some(file) = &args.picture {
+        if args.inputs.len() > 1 {
+            return Err(usage_error(
+                "--picture draws the findings of one file",
+                "Check one file, such as `guideway check site.lif.json --picture site.png`",
+            ));
+        }
+        input::check_output(inputs(), file)?;
+        PictureFormat::of_output(file, None)?;
+    }
+    let (mut files, layouts, times) = checked(args, out)?;
     if let ([CheckedFile { unread, .. }], false) = (&mut files[..], args.format == Format::Sarif)
         && let Some(error) = unread.take()
     {
@@ -46,6 +57,12 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             (file.known, file.gone) = baseline.remove_known(&file.path, &mut file.found);
         }
     }
+    if let (Some(picture), [file], Some(layout)) =
+        (&args.picture, &files[..], layouts.into_iter().next())
+    {
+        let name = file.path.file_name().unwrap_or_default();
+        picture::save(layout, &file.found, &name.to_string_lossy(), picture, out)?;
+    }
     let exit = exit(&files);
     match args.format {
         Format::Sarif => print(&sarif::bytes(&files, exit)?)?,
@@ -55,12 +72,16 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     Ok(exit)
 }
 
-/// Checks each file by itself, and, as one layout, against the files before it.
-fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Times), UserError> {
+/// Checks each file by itself, and, as one layout, against the files before it. Returns the layouts
+/// that are needed further.
+fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Vec<Layout>, Times), UserError> {
     let clearance = args.clearance.check(out)?;
     let mut configs = Configs::new(args.config.as_deref());
     let mut times = Times::default();
     let (mut files, mut layouts) = (Vec::with_capacity(args.inputs.len()), Vec::new());
+    // Reading and checking each file.
+    let steps = [6.0, 4.0].repeat(args.inputs.len());
+    plan(1, &steps);
     for input in &args.inputs {
         let Checked {
             file,
@@ -71,7 +92,7 @@ fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Times), UserE
         times.read_ms += read_ms;
         times.check_ms += check_ms;
         files.push(file);
-        layouts.extend(layout.filter(|_| args.together));
+        layouts.extend(layout.filter(|_| args.together || args.picture.is_some()));
     }
     if args.together {
         let progress = out.progress("comparing the files");
@@ -85,7 +106,7 @@ fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Times), UserE
     for file in &mut files {
         apply(&file.rules, &mut file.found);
     }
-    Ok((files, times))
+    Ok((files, layouts, times))
 }
 
 /// Writes a baseline of the findings, which then are known.

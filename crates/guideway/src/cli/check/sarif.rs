@@ -10,9 +10,8 @@ use serde_json::{Value, json};
 
 use super::findings::CheckedFile;
 use super::fingerprint::fingerprint;
-use crate::cli::error::json_error;
-use crate::cli::exit::Exit;
-use crate::cli::relative_path::{relative, resolved};
+use crate::cli::error::{Exit, json_error};
+use crate::cli::input::{relative, resolved};
 
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";

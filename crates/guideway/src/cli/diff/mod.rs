@@ -15,10 +15,10 @@ use clap::ValueEnum;
 use guideway::layout::{CompareOptions, UserError, changes};
 
 use self::report::Report;
-use super::exit::Exit;
+use super::error::Exit;
 use super::input::{self, Input};
 use super::output::Output;
-use super::picture_file::check_extension;
+use super::picture_file::PictureFormat;
 use super::values;
 
 #[derive(Debug, clap::Args)]
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let files = [&args.old, &args.new].map(|input| input.path.as_path());
     if let Some(output) = &args.output {
         input::check_output(files, output)?;
-        check_extension(output)?;
+        PictureFormat::of_output(output, None)?;
     }
     let (mut layouts, read_ms) = input::read_each(&[args.old.clone(), args.new.clone()], out)?;
     let new = layouts.pop().unwrap_or_default();

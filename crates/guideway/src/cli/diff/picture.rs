@@ -9,7 +9,7 @@ use guideway::layout::{Change, Changes, ElementKind, Layout, UserError, merge};
 use guideway::scene::{FrameSize, LineRule, Scene, SceneOptions};
 
 use crate::cli::output::Output;
-use crate::cli::picture_file::is_svg;
+use crate::cli::picture_file::PictureFormat;
 
 /// Colors as RRGGBBAA, of increasing draw rank.
 const UNCHANGED: u32 = 0xb4b4_b4ff;
@@ -21,7 +21,7 @@ const REMOVED: u32 = 0xd627_28ff;
 const TITLE: &str =
     "red: removed, green: new, blue: changed (old shape in pale red), gray: as before";
 
-/// Draws the changes of paths to a PNG or SVG file.
+/// Draws the changes of paths to a PNG, SVG or PDF file.
 pub(super) fn write(
     [old, new]: [&Layout; 2],
     found: &Changes<'_>,
@@ -45,8 +45,8 @@ pub(super) fn write(
         title: Some(TITLE.to_owned()),
         ..Decorations::default()
     };
-    if is_svg(output) {
-        picture.save_svg(output)?;
+    if let Some(format) = PictureFormat::of_output(output, None)?.vector() {
+        picture.save_vector(format, output)?;
     } else {
         let method = guideway::method("cpu")?;
         picture.save_png(&*method, output, &progress)?;

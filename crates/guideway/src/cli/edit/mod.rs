@@ -29,7 +29,7 @@ use serde_json::{Value, json};
 use self::script::Script;
 use self::step::{SHOWN_NAMES, Touched};
 use super::convert::{target_to_save, write};
-use super::exit::Exit;
+use super::error::Exit;
 use super::input::{self, Input};
 use super::output::Output;
 use super::text;
@@ -99,7 +99,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let mut written = None;
     if let (Some(output), Some(target)) = (output, target) {
         let progress = out.progress(format!("writing {}", shown_path(output)));
-        written = Some((output, target, write(target, &layout, output)?));
+        written = Some((output, target, write(target, &layout, output, &progress)?));
         write_ms = progress.finish();
     }
     let total_ms = read_ms + edit_ms + write_ms;

@@ -1,4 +1,4 @@
-//! Total length and bounding box of all paths.
+//! Total length and bounding box of all paths, and the length of each kind.
 
 use guideway::layout::{PathRef, Paths};
 use guideway::spline::{Bounds, Point, segment_length};
@@ -19,18 +19,36 @@ impl Extent {
         bounds: None,
     };
 
-    pub(super) fn of(paths: &Paths) -> Self {
+    /// The extent of all paths, and the length of each kind of path: `kind_of` maps a row to a
+    /// number below `kinds`.
+    pub(super) fn of(
+        paths: &Paths,
+        kinds: usize,
+        kind_of: impl Fn(usize) -> usize + Sync,
+    ) -> (Self, Vec<f64>) {
         // Joined in order, so that the rounded sum does not depend on the threads.
         const CHUNK: usize = 4096;
         let starts: Vec<usize> = (0..paths.len()).step_by(CHUNK).collect();
-        let chunks: Vec<Self> = starts
+        let chunks: Vec<(Self, Vec<f64>)> = starts
             .into_par_iter()
             .map(|start| {
-                let rows = start..paths.len().min(start + CHUNK);
-                rows.fold(Self::NONE, |all, row| all.with(paths.get(row)))
+                let (mut all, mut lengths_m) = (Self::NONE, vec![0.0; kinds]);
+                for row in start..paths.len().min(start + CHUNK) {
+                    let before_m = all.length_m;
+                    all = all.with(paths.get(row));
+                    lengths_m[kind_of(row)] += all.length_m - before_m;
+                }
+                (all, lengths_m)
             })
             .collect();
-        chunks.into_iter().fold(Self::NONE, Self::join)
+        let none = (Self::NONE, vec![0.0; kinds]);
+        chunks
+            .into_iter()
+            .fold(none, |(all, mut lengths_m), chunk| {
+                let sums = lengths_m.iter_mut().zip(chunk.1);
+                sums.for_each(|(sum, length_m)| *sum += length_m);
+                (all.join(chunk.0), lengths_m)
+            })
     }
 
     fn with(self, path: PathRef<'_>) -> Self {
@@ -87,7 +105,9 @@ mod tests {
                 ..NewPath::default()
             });
         }
-        let extent = Extent::of(&layout.paths);
+        let (extent, lengths_m) = Extent::of(&layout.paths, 2, |row| row);
+        assert_eq!(lengths_m.iter().sum::<f64>(), extent.length_m);
+        assert!((lengths_m[0] - lengths_m[1]).abs() < 1e-9);
         let known = 2.0 * (5f64.sqrt() / 2.0 + 2f64.asinh() / 4.0);
         assert!((extent.length_m - known).abs() < 1e-6 * known);
         let size = extent.bounds.unwrap().size();

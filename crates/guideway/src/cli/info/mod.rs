@@ -8,9 +8,10 @@ mod table;
 use guideway::layout::UserError;
 
 use self::summary::Summary;
-use super::exit::Exit;
+use super::error::Exit;
 use super::input::{self, Input};
 use super::output::Output;
+use super::progress_bar::plan;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = input::PLACEMENT_HELP)]
@@ -21,6 +22,8 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    // Reading, merging, measuring.
+    plan(args.inputs.len(), &[8.0, 0.1, 2.0]);
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let progress = out.progress("measuring");
     let mut summary = Summary::of(&layout, &args.inputs);

@@ -2,12 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use guideway::layout::{Diagnostics, Direction, FindingKind, Layout, Place};
+use guideway::layout::{Diagnostics, Direction, FindingKind, Layout, Place, Value};
 use serde::Serialize;
 
 use super::columns::{self, Column, FrequentValue};
 use super::extent::Extent;
 use crate::cli::input::{self, Input};
+
+/// Kinds of paths that are told apart.
+const MOST_KINDS: usize = 12;
 
 /// The `info` report. Field names are keys of the JSON report.
 #[derive(Debug, Serialize)]
@@ -20,6 +23,8 @@ pub(super) struct Summary {
     pub(super) source_counts: Vec<Count>,
     pub(super) paths: u64,
     pub(super) two_way_paths: u64,
+    /// The paths by what they are, the longest kind first.
+    pub(super) kinds: Vec<PathKind>,
     pub(super) segments: u64,
     pub(super) control_points: u64,
     pub(super) nodes: u64,
@@ -39,6 +44,14 @@ pub(super) struct Summary {
 pub(super) struct Count {
     pub(super) name: String,
     pub(super) count: u64,
+}
+
+/// A kind of path: lanes, walls and other elements, or one-way and two-way.
+#[derive(Debug, Serialize)]
+pub(super) struct PathKind {
+    pub(super) name: String,
+    pub(super) paths: u64,
+    pub(super) length_m: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -92,7 +105,7 @@ pub(super) struct Times {
 
 impl Summary {
     pub(super) fn of(layout: &Layout, inputs: &[Input]) -> Self {
-        let extent = Extent::of(&layout.paths);
+        let (extent, path_kinds) = extent_and_kinds(layout);
         let source = &layout.provenance;
         let geometry = layout.paths.geometry();
         let two_way = |direction| direction == Direction::Both;
@@ -115,6 +128,7 @@ impl Summary {
                 .iter()
                 .filter(|p| two_way(p.direction()))
                 .count() as u64,
+            kinds: path_kinds,
             segments: geometry.segment_count() as u64,
             control_points: geometry.point_count() as u64,
             nodes: layout.nodes.len() as u64,
@@ -142,6 +156,46 @@ impl Summary {
     pub(super) fn refused_count(&self) -> u64 {
         self.refused.iter().map(|kind| kind.count).sum()
     }
+}
+
+/// The extent of all paths and their kinds: by the column `element`, else by direction.
+fn extent_and_kinds(layout: &Layout) -> (Extent, Vec<PathKind>) {
+    let paths = &layout.paths;
+    let mut names: Vec<String> = Vec::new();
+    let mut of_row: Vec<u32> = Vec::new();
+    for row in 0..paths.len() {
+        let name = match (
+            paths.attributes.value(row, "element"),
+            paths.get(row).direction(),
+        ) {
+            (Some(Value::Text(element)), _) => element,
+            (_, Direction::Both) => "two-way",
+            _ => "one-way",
+        };
+        let known = names.iter().position(|known| known == name);
+        let kind = known.unwrap_or(names.len()).min(MOST_KINDS);
+        match known {
+            None if kind < MOST_KINDS => names.push(name.to_owned()),
+            None if names.len() == MOST_KINDS => names.push("others".to_owned()),
+            _ => {}
+        }
+        of_row.push(kind as u32);
+    }
+    let (extent, lengths_m) = Extent::of(paths, names.len(), |row| of_row[row] as usize);
+    let mut kinds: Vec<PathKind> = names
+        .into_iter()
+        .zip(lengths_m)
+        .map(|(name, length_m)| PathKind {
+            name,
+            paths: 0,
+            length_m,
+        })
+        .collect();
+    of_row
+        .iter()
+        .for_each(|kind| kinds[*kind as usize].paths += 1);
+    kinds.sort_by(|a, b| b.length_m.total_cmp(&a.length_m));
+    (extent, kinds)
 }
 
 fn levels(layout: &Layout) -> Vec<LevelSummary> {

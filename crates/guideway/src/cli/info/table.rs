@@ -1,5 +1,7 @@
 //! The `info` report as text.
 
+use guideway::layout::Quantity;
+
 use super::columns::{Column, FrequentValue};
 use super::summary::{Kind, Summary};
 use crate::cli::text::{bytes, count, counted, meters, number, single_line, time};
@@ -15,24 +17,13 @@ pub(super) fn text(of: &Summary) -> String {
         "format",
         format!("{} {}", of.format, of.format_version).trim_end(),
     );
-    let parts = of.source_counts.iter();
-    lines.put(
-        "in the file",
-        &join(parts.map(|part| format!("{} {}", count(part.count), part.name))),
-    );
+    lines.kinds("refused", &of.refused);
+    lines.kinds("findings", &of.findings);
+    lines.put("site", &bounds(of));
     lines.put("paths", &paths(of));
-    lines.put(
-        "curves",
-        &format!(
-            "{}, {}",
-            counted(of.segments, "segment"),
-            counted(of.control_points, "control point")
-        ),
-    );
-    lines.put("length", &meters(of.length_m));
-    lines.put("bounds", &bounds(of));
+    lines.put("length", &length(of));
     lines.put("nodes", &count(of.nodes));
-    lines.put("stations", &count(of.stations));
+    lines.put("stations", &stations(of));
     let levels = of.levels.iter().map(|level| {
         let name = single_line(level.name.as_deref().unwrap_or(&level.id), MAX_CHARS);
         let height = level
@@ -42,12 +33,24 @@ pub(super) fn text(of: &Summary) -> String {
     });
     lines.put("levels", &join(levels));
     lines.put("vehicles", &frequent_values(&of.vehicle_types));
+    lines.put("speeds", &speeds(of));
+    lines.put(
+        "curves",
+        &format!(
+            "{}, {}",
+            counted(of.segments, "segment"),
+            counted(of.control_points, "control point")
+        ),
+    );
+    let parts = of.source_counts.iter();
+    lines.put(
+        "in the file",
+        &join(parts.map(|part| format!("{} {}", count(part.count), part.name))),
+    );
     lines.put("memory", &bytes(of.memory_bytes));
     lines.columns("paths", &of.attributes.paths);
     lines.columns("nodes", &of.attributes.nodes);
     lines.columns("stations", &of.attributes.stations);
-    lines.kinds("refused", &of.refused);
-    lines.kinds("findings", &of.findings);
     let times = &of.ms;
     lines.0
         + &format!(
@@ -116,6 +119,53 @@ fn paths(of: &Summary) -> String {
         0 => text,
         n => text + &format!("; {} refused", count(n)),
     }
+}
+
+/// The total length, and that of each kind if there are several.
+fn length(of: &Summary) -> String {
+    let kinds = of.kinds.iter().map(|kind| {
+        let name = single_line(&kind.name, MAX_CHARS);
+        format!(
+            "{name} {} ({})",
+            meters(kind.length_m),
+            counted(kind.paths, "path")
+        )
+    });
+    match of.kinds.len() {
+        0 | 1 => meters(of.length_m),
+        _ => format!("{}: {}", meters(of.length_m), join(kinds)),
+    }
+}
+
+/// The number of stations, and of each kind if they have one.
+fn stations(of: &Summary) -> String {
+    let kind = of
+        .attributes
+        .stations
+        .iter()
+        .find(|column| column.name == "kind");
+    match kind.filter(|kind| !kind.top.is_empty()) {
+        Some(kind) => format!("{}: {}", count(of.stations), frequent_values(&kind.top)),
+        None => count(of.stations),
+    }
+}
+
+/// The range of each column of speeds of paths, and the commonest ones.
+fn speeds(of: &Summary) -> String {
+    let speeds = of.attributes.paths.iter();
+    let speeds = speeds.filter(|column| column.unit == Some(Quantity::Speed.unit()));
+    join(speeds.filter_map(|column| {
+        let (min, max) = (number(column.min?), number(column.max?));
+        let range = match min == max {
+            true => min,
+            false => format!("{min} to {max}"),
+        };
+        let mostly = column.top.first().filter(|_| column.distinct > 1);
+        let mostly = mostly.map_or_else(String::new, |top| {
+            format!(", mostly {} ({})", top.value, counted(top.count, "path"))
+        });
+        Some(format!("{} {range} m/s{mostly}", column.name))
+    }))
 }
 
 fn bounds(of: &Summary) -> String {

@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use guideway::AUTO;
 use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport};
-use guideway::layout::UserError;
-use guideway::scene::{Budget, ColorBy, Scene, SceneOptions, Style};
+use guideway::layout::{Layout, UserError};
+use guideway::scene::{Budget, ColorBy, Scene, SceneOptions, Shading, Style};
 
 use super::decoration_args::DecorationArgs;
-use super::style_args::StyleArgs;
+use super::style_args::{StyleArgs, suitable_widths};
+use super::target::Target;
 use super::view_args::ViewArgs;
 use crate::cli::error::usage_error;
 use crate::cli::input::{Input, PLACEMENT_HELP, check_output};
-use crate::cli::picture_file::{default_name, is_svg};
-use crate::cli::stdout::is_stdout;
+use crate::cli::picture_file::{PictureFormat, default_name};
 use crate::cli::values;
 
 #[derive(Debug, clap::Args)]
@@ -27,10 +27,13 @@ pub(crate) struct Args {
     /// Layout files; the content decides the format
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     pub(super) inputs: Vec<Input>,
-    /// PNG or SVG file to write; `-` writes PNG to standard output [default: the name of the
-    /// layout with .png, unless this file exists]
+    /// PNG, SVG or PDF file to write; `-` is standard output [default: the name of the layout with
+    /// .png, unless this file exists]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Format of the picture where the output has no extension, such as `-o - --to svg`
+    #[arg(long, value_name = "FORMAT")]
+    pub(super) to: Option<PictureFormat>,
     /// Also write a world file (.pgw), by which QGIS and other programs place the PNG
     #[arg(long)]
     pub(super) world_file: bool,
@@ -65,6 +68,9 @@ struct ResourceArgs {
     #[arg(long, value_name = "MB")]
     memory: Option<u64>,
 }
+
+/// The value of `--level` that shows all levels side by side.
+const EACH: &str = "each";
 
 /// The options of a picture, valid together.
 pub(super) struct RenderOptions {
@@ -102,16 +108,17 @@ impl Args {
     ///
     /// # Errors
     /// When the output is no PNG file.
-    pub(super) fn world_file(&self, output: &Path) -> Result<Option<PathBuf>, UserError> {
+    pub(super) fn world_file(&self, target: &Target<'_>) -> Result<Option<PathBuf>, UserError> {
         if !self.world_file {
             return Ok(None);
         }
-        if is_stdout(output) || is_svg(output) {
+        let output = target.file.filter(|_| target.format == PictureFormat::Png);
+        let Some(output) = output else {
             return Err(usage_error(
                 "--world-file places a PNG file",
                 "Write one, such as `-o site.png --world-file`",
             ));
-        }
+        };
         let file = output.with_extension("pgw");
         check_output(self.files(), &file)?;
         Ok(Some(file))
@@ -123,11 +130,11 @@ impl Args {
         inputs.map(|input| input.path.as_path())
     }
 
-    /// Rejects options that SVG cannot express.
+    /// Rejects options that SVG and PDF cannot express.
     pub(super) fn check_vector(&self) -> Result<(), UserError> {
         if self.method != AUTO || self.aa.is_some() {
             return Err(usage_error(
-                "SVG holds the curves themselves, so --method and --aa do not apply",
+                "SVG and PDF hold the curves themselves, so --method and --aa do not apply",
                 "Omit --method and --aa, or save the picture as PNG",
             ));
         }
@@ -141,14 +148,17 @@ impl Args {
     pub(super) fn options(&self) -> Result<RenderOptions, UserError> {
         let default = Budget::default();
         let memory = self.resources.memory;
+        let style = self.style.style()?;
         Ok(RenderOptions {
             scene: SceneOptions {
                 color: self.style.color,
                 color_by: self.style.color_by.clone().map(|column| ColorBy { column }),
+                numbers: self.style.numbers(style.background),
                 level: self.view.level.clone(),
+                has_gray_structure: !self.decorations.plain,
             },
             viewport: self.view.viewport()?,
-            style: self.style.style()?,
+            style,
             budget: Budget {
                 memory_bytes: memory
                     .map_or(default.memory_bytes, |mb| mb.saturating_mul(1_000_000)),
@@ -178,7 +188,29 @@ impl Args {
             ..Backdrop::default()
         };
         picture.decorations = self.decorations.decorations(&self.inputs);
-        picture.decorations.has_legend |= self.style.legend;
+        let is_density = options.style.shading != Shading::Color;
+        picture.decorations.has_legend |=
+            self.style.legend || (is_density && !self.decorations.plain);
         picture
+    }
+
+    /// Suits the widths of lines to a layout, unless they are given.
+    pub(super) fn suit_widths(&self, layout: &Layout, options: &mut RenderOptions) {
+        let is_all_shown = options.viewport.px_per_m.is_none();
+        if !self.decorations.plain && !self.style.has_widths() {
+            let size = options.viewport.size;
+            options.style.line_rule = suitable_widths(layout, is_all_shown, size);
+        }
+    }
+
+    /// Returns `true` if the picture may show density where its paths are crowded: nothing says
+    /// what their colors mean.
+    pub(super) fn may_show_density(&self) -> bool {
+        !self.decorations.plain && self.style.may_show_density()
+    }
+
+    /// Returns `true` if the levels of a layout are to be shown side by side.
+    pub(super) fn is_each_level(&self, layout: &Layout) -> bool {
+        self.view.level.as_deref() == Some(EACH) && layout.level_named(EACH).is_none()
     }
 }

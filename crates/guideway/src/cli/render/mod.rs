@@ -19,6 +19,5 @@ mod view_args;
 mod view_notes;
 
 pub(crate) use args::Args;
-pub(crate) use report::paths_text;
 pub(crate) use run::run;
 pub(crate) use style_args::{Rule, Shade};

@@ -60,7 +60,7 @@ pub(super) fn text(path: &Path, shown: &Shown<'_>, times: &Times) -> String {
         text::time(times.scene + times.prepare + times.render),
         text::time(times.write),
     );
-    if let Some(legend) = scene.legend() {
+    if let Some(legend) = legend(scene, rendered) {
         text += &legend_text(legend);
     }
     let findings = &scene.layout().diagnostics;
@@ -79,7 +79,7 @@ pub(super) fn text(path: &Path, shown: &Shown<'_>, times: &Times) -> String {
 }
 
 /// The account of all paths on one line, and the notes.
-pub(crate) fn paths_text(rendered: &Rendered) -> String {
+fn paths_text(rendered: &Rendered) -> String {
     let report = &rendered.report;
     let mut text = format!(
         "{} of {} drawn by {}",
@@ -101,6 +101,11 @@ pub(crate) fn paths_text(rendered: &Rendered) -> String {
         text += &format!("note: {note}\n");
     }
     text
+}
+
+/// The meaning of the colors.
+fn legend<'a>(scene: &'a Scene, rendered: &'a Rendered) -> Option<&'a Legend> {
+    rendered.report.density.as_ref().or(scene.legend())
 }
 
 fn legend_text(legend: &Legend) -> String {
@@ -168,7 +173,7 @@ pub(super) fn json(args: &Args, output: &Path, shown: &Shown<'_>, times: &Times)
         "bands": report.bands,
         "stages": stages,
         "notes": report.notes,
-        "legend": scene.legend().map(legend_json),
+        "legend": legend(scene, rendered).map(legend_json),
         "findings": {
             "errors": layout.diagnostics.count_at_least(Severity::Error),
             "warnings": layout.diagnostics.count_at_least(Severity::Warning)
@@ -200,7 +205,7 @@ fn legend_json(legend: &Legend) -> Value {
     json!({
         "column": legend.column,
         "unit": legend.unit,
-        "is_continuous": legend.is_continuous,
+        "is_continuous": legend.scale.is_some(),
         "entries": entries,
     })
 }

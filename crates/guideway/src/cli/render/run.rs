@@ -2,76 +2,115 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
-use guideway::compose::world_file as world_file_of;
-use guideway::layout::UserError;
-use guideway::scene::Scene;
+use guideway::compose::{LevelPart, VectorFormat, world_file as world_file_of};
+use guideway::layout::{Layout, Level, UserError};
+use guideway::scene::density::ToneMap;
+use guideway::scene::{Method, Scene, SceneOptions, Shading, elapsed_ms};
 
 use super::args::Args;
 use super::report::{self, Shown, Times};
 use super::target::Target;
 use super::view_notes::view_notes;
-use crate::cli::exit::Exit;
+use crate::cli::error::Exit;
 use crate::cli::output::Output;
-use crate::cli::picture_file::check_extension;
+use crate::cli::progress_bar::plan;
 use crate::cli::{floor_plan, input, output, stdout};
 
-pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    let options = args.options()?;
-    let output_file = args.output()?;
-    let target = Target::new(&output_file, out)?;
-    if let Target::File(path) = target {
-        input::check_output(args.files(), path)?;
-        check_extension(path)?;
-    }
-    let world_file = args.world_file(&output_file)?;
-    // Before a large file is read: an unknown method is an error of the arguments.
-    let method = match target.is_vector() {
-        true => {
-            args.check_vector()?;
-            None
+/// The maker of the picture.
+enum Renderer {
+    Curves(VectorFormat),
+    Pixels(Box<dyn Method>),
+}
+
+impl Renderer {
+    fn method(&self) -> Option<&dyn Method> {
+        match self {
+            Self::Curves(_) => None,
+            Self::Pixels(method) => Some(&**method),
         }
-        false => Some(guideway::method(&args.method())?),
+    }
+}
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    let mut options = args.options()?;
+    let output_file = args.output()?;
+    let target = Target::new(&output_file, args.to, out)?;
+    if let Some(path) = target.file {
+        input::check_output(args.files(), path)?;
+    }
+    let world_file = args.world_file(&target)?;
+    // Before a large file is read: an unknown method is an error of the arguments.
+    let renderer = match target.format.vector() {
+        Some(format) => {
+            args.check_vector()?;
+            Renderer::Curves(format)
+        }
+        None => Renderer::Pixels(guideway::method(&args.method())?),
     };
-    let output = match target {
-        Target::File(path) => Some(path),
-        Target::StandardOutput => None,
-    };
-    let plan = args.floor_plan();
-    let plan = plan.map(|plan| floor_plan::read(plan, output, out));
-    let plan = plan.transpose()?;
+    let floor_plan = args.floor_plan();
+    // Reading, merging, preparing, drawing.
+    let files = args.inputs.len() + usize::from(floor_plan.is_some());
+    plan(files, &[6.0, 0.1, 1.0, 3.0]);
+    let floor_plan = floor_plan.map(|plan| floor_plan::read(plan, target.file, out));
+    let floor_plan = floor_plan.transpose()?;
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let progress = out.progress("preparing the scene");
-    let scene = Arc::new(Scene::new(Arc::new(layout), &options.scene)?);
+    let is_each = args.is_each_level(&layout);
+    if is_each {
+        options.scene.level = None;
+    }
+    args.suit_widths(&layout, &mut options);
+    let layout = Arc::new(layout);
+    let scene = Arc::new(Scene::new(Arc::clone(&layout), &options.scene)?);
+    let parts = match is_each {
+        true => level_parts(&layout, &options.scene)?,
+        false => Vec::new(),
+    };
     let scene_ms = progress.finish();
-    let mut picture = args.picture(&options, Arc::clone(&scene), plan);
+    let mut picture = args.picture(&options, Arc::clone(&scene), floor_plan);
     let route = args.decorations.route.as_ref();
     let route = route.map(|ends| ends.find(scene.layout())).transpose()?;
     picture.decorations.route = route.as_ref().map(|route| route.mark.clone());
-    let (mut rendered, svg_ms) = match method {
-        None => {
-            let progress = out.progress("writing the picture");
-            let rendered = picture.save_svg(&output_file)?;
-            (rendered, progress.finish())
+    let progress = out.progress("drawing");
+    let mut notes = Vec::new();
+    if let Renderer::Pixels(method) = &renderer
+        && args.may_show_density()
+        && picture.is_crowded(&**method, &progress)?
+    {
+        picture.style.shading = Shading::Density(ToneMap::Log);
+        picture.decorations.has_legend = true;
+        notes.push(
+            "many paths cover most of the picture, so it shows how many there are per pixel; \
+             `--shade lines` draws their colors"
+                .to_owned(),
+        );
+    }
+    let started = Instant::now();
+    let mut rendered = match &renderer {
+        _ if !parts.is_empty() => {
+            target.write_levels(&picture, &parts, renderer.method(), &progress)?
         }
-        Some(method) => {
-            let progress = out.progress("rendering");
-            (target.write_png(&picture, &*method, &progress)?, 0.0)
-        }
+        Renderer::Curves(format) => target.write_vector(&picture, *format)?,
+        Renderer::Pixels(method) => target.write_png(&picture, &**method, &progress)?,
     };
+    if renderer.method().is_none() {
+        rendered.write_ms = elapsed_ms(started);
+    }
+    drop(progress);
     if let Some(file) = &world_file {
         output::save(file, world_file_of(&rendered.view).as_bytes())?;
     }
-    rendered
-        .report
-        .notes
-        .extend(view_notes(&scene, &rendered, options.scene.level.is_some()));
+    let has_level = options.scene.level.is_some() || !parts.is_empty();
+    notes.extend(view_notes(&scene, &rendered, has_level));
+    rendered.report.notes.extend(notes);
     let times = Times {
         read: read_ms,
         scene: scene_ms,
         prepare: rendered.prepare_ms,
         render: rendered.render_ms,
-        write: rendered.write_ms + svg_ms,
+        write: rendered.write_ms,
     };
     let shown = Shown {
         scene: &scene,
@@ -80,6 +119,27 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     };
     print_report(args, &output_file, &shown, &times, out)?;
     Ok(Exit::Clean)
+}
+
+/// The levels of a layout that have paths, in file order.
+fn level_parts(layout: &Arc<Layout>, options: &SceneOptions) -> Result<Vec<LevelPart>, UserError> {
+    let mut has_paths = vec![false; layout.levels.len()];
+    for level in layout.paths.iter().filter_map(|path| path.level()) {
+        has_paths[level as usize] = true;
+    }
+    let levels = layout.levels.iter().zip(has_paths);
+    let part = |level: &Level| {
+        let options = SceneOptions {
+            level: Some(level.id.clone()),
+            ..options.clone()
+        };
+        Ok(LevelPart {
+            scene: Arc::new(Scene::new(Arc::clone(layout), &options)?),
+            title: level.name.clone().unwrap_or_else(|| level.id.clone()),
+        })
+    };
+    let shown = levels.filter(|(_, has_paths)| *has_paths);
+    shown.map(|(level, _)| part(level)).collect()
 }
 
 fn print_report(

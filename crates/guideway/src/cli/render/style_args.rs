@@ -1,9 +1,9 @@
 //! Options of `render` for line widths, colors and shading.
 
 use clap::ValueEnum;
-use guideway::layout::UserError;
+use guideway::layout::{Layout, UserError};
 use guideway::scene::density::ToneMap;
-use guideway::scene::{LineRule, Rgba, Shading, Style};
+use guideway::scene::{FrameSize, LineRule, NumberColors, Palette, Rgba, Shading, Style};
 
 use crate::cli::error::usage_error;
 use crate::cli::values;
@@ -11,7 +11,8 @@ use crate::cli::values;
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Style")]
 pub(super) struct StyleArgs {
-    /// Width of paths without a width in the file [default: 0.1]
+    /// Width of paths without a width in the file [default: a hairline in drawings, 2 pixels where
+    /// all is shown, else 0.1]
     #[arg(
         long,
         value_name = "METERS",
@@ -39,15 +40,28 @@ pub(super) struct StyleArgs {
     /// Color paths by a column: `level`, `direction`, `vehicle_type` or a column of the file
     #[arg(long, value_name = "COLUMN")]
     pub(super) color_by: Option<String>,
+    /// Colors of the numbers of that column [default: warm]
+    #[arg(long, value_name = "NAME", requires = "color_by", value_parser = values::palette())]
+    palette: Option<Palette>,
+    /// Numbers at both ends of the palette, such as 0..2 [default: the least and the largest one]
+    #[arg(
+        long,
+        value_name = "MIN..MAX",
+        requires = "color_by",
+        value_parser = values::range,
+        allow_hyphen_values = true
+    )]
+    range: Option<[f64; 2]>,
     /// Draw the legend of the colors into the picture
-    #[arg(long, requires = "color_by")]
+    #[arg(long)]
     pub(super) legend: bool,
-    /// Background color [default: ffffff]
-    #[arg(long, value_name = "RRGGBB")]
+    /// Background color; `none` for a transparent picture [default: ffffff]
+    #[arg(long, value_name = "RRGGBB", value_parser = values::background)]
     background: Option<Rgba>,
-    /// Value of a pixel: the color of the topmost path, or the number of paths
-    #[arg(long, default_value = "color")]
-    shade: Shade,
+    /// Value of a pixel: the color of the topmost path, or the number of paths [default: density
+    /// where many paths cover more than half of the picture, else color]
+    #[arg(long)]
+    shade: Option<Shade>,
     /// Map from the number of paths to a color, with `--shade density` [default: log]
     #[arg(long)]
     tone: Option<Tone>,
@@ -61,7 +75,7 @@ pub(crate) enum Rule {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Shade {
-    #[value(alias = "colour")]
+    #[value(aliases = ["colour", "lines"])]
     Color,
     Density,
 }
@@ -75,6 +89,26 @@ enum Tone {
 }
 
 impl StyleArgs {
+    /// Returns `true` if an option sets the widths of lines.
+    pub(super) fn has_widths(&self) -> bool {
+        let is_given = self.width.or(self.min_px).or(self.max_px).is_some();
+        is_given || self.line_rule == Rule::Thesis
+    }
+
+    /// Returns `true` if neither colors nor shading are asked for.
+    pub(super) fn may_show_density(&self) -> bool {
+        self.shade.is_none() && self.color_by.is_none() && self.color.is_none()
+    }
+
+    /// The colors of numbers on a background.
+    pub(super) fn numbers(&self, background: Rgba) -> NumberColors {
+        NumberColors {
+            palette: self.palette.unwrap_or_default(),
+            range: self.range,
+            background,
+        }
+    }
+
     pub(super) fn style(&self) -> Result<Style, UserError> {
         let default = Style::default();
         Ok(Style {
@@ -85,9 +119,8 @@ impl StyleArgs {
     }
 
     fn line_rule(&self) -> Result<LineRule, UserError> {
-        let has_widths = self.width.or(self.min_px).or(self.max_px).is_some();
         if self.line_rule == Rule::Thesis {
-            if has_widths {
+            if self.width.or(self.min_px).or(self.max_px).is_some() {
                 return Err(usage_error(
                     "--line-rule thesis sets every width, so --width, --min-px and --max-px do not \
                      apply",
@@ -121,7 +154,14 @@ impl StyleArgs {
     }
 
     fn shading(&self) -> Result<Shading, UserError> {
-        match (self.shade, self.tone) {
+        let shade = self.shade.unwrap_or(Shade::Color);
+        if self.legend && self.color_by.is_none() && shade == Shade::Color {
+            return Err(usage_error(
+                "--legend says what colors mean, and here they have no meaning",
+                "Add a column, such as `--legend --color-by maxSpeed`, or `--shade density`",
+            ));
+        }
+        match (shade, self.tone) {
             (Shade::Color, None) => Ok(Shading::Color),
             (Shade::Color, Some(_)) => Err(usage_error(
                 "--tone applies only with --shade density",
@@ -133,5 +173,47 @@ impl StyleArgs {
                 Some(Tone::Equalized) => ToneMap::Equalized,
             })),
         }
+    }
+}
+
+/// The widths that suit what a layout is: hairlines for a drawing, thin lines for ways where all of
+/// them are shown, else the true width. Lines with a width of their own keep it.
+pub(super) fn suitable_widths(layout: &Layout, is_all_shown: bool, size: FrameSize) -> LineRule {
+    /// Shorter side of a picture whose lines have these widths, in pixels; larger ones have wider
+    /// lines.
+    const SIDE_PX: f64 = 1080.0;
+    const HAIRLINE_PX: f64 = 1.0;
+    const WAY_PX: f64 = 2.0;
+    let min_px = match (layout.is_drawing(), is_all_shown) {
+        (true, _) => HAIRLINE_PX,
+        (false, true) => WAY_PX,
+        (false, false) => return LineRule::default(),
+    };
+    let side_px = f64::from(size.width().min(size.height()));
+    let rule = LineRule::World {
+        width_m: 0.0,
+        min_px,
+        max_px: 12.0,
+    };
+    rule.scaled((side_px / SIDE_PX).max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_suit_drawings_and_ways() {
+        let radius_px = |format: &str, is_all_shown, width, height| {
+            let mut layout = Layout::default();
+            layout.provenance.format = format.to_owned();
+            let size = FrameSize::new(width, height).unwrap();
+            suitable_widths(&layout, is_all_shown, size).radius_px(None, 50.0)
+        };
+        assert_eq!(radius_px("DXF", true, 1920, 1080), 0.5);
+        assert_eq!(radius_px("DXF", false, 300, 300), 0.5);
+        assert_eq!(radius_px("LIF", true, 1920, 1080), 1.0);
+        assert_eq!(radius_px("LIF", true, 6000, 4320), 4.0);
+        assert_eq!(radius_px("LIF", false, 1920, 1080), 2.5);
     }
 }

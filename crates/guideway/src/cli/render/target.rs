@@ -1,42 +1,47 @@
-//! Output of `render`: a file, or PNG on standard output.
+//! Output of `render`: a file or standard output, as PNG, SVG or PDF.
 
 use std::path::Path;
 
-use guideway::compose::{ComposeError, Picture, Rendered};
+use guideway::compose::{ComposeError, LevelPart, Picture, Rendered, VectorFormat};
 use guideway::formats::Progress;
 use guideway::layout::UserError;
 use guideway::scene::Method;
 use guideway::write_png_by;
 
+use crate::cli::error::usage_error;
 use crate::cli::output::Output;
-use crate::cli::picture_file::is_svg;
+use crate::cli::picture_file::PictureFormat;
 use crate::cli::stdout::{self, Stdout};
 
 /// The output of a picture.
-pub(super) enum Target<'a> {
-    StandardOutput,
-    File(&'a Path),
+pub(super) struct Target<'a> {
+    /// The file; `None` for standard output.
+    pub(super) file: Option<&'a Path>,
+    pub(super) format: PictureFormat,
 }
 
 impl<'a> Target<'a> {
-    /// The output that `-o` names.
+    /// The output that `-o` and `--to` name.
     ///
     /// # Errors
-    /// When standard output is a terminal or takes the JSON report.
-    pub(super) fn new(path: &'a Path, out: &Output) -> Result<Self, UserError> {
-        if !stdout::is_stdout(path) {
-            return Ok(Self::File(path));
+    /// When standard output is a terminal or takes the JSON report, or the extension of the file is
+    /// not that of a picture.
+    pub(super) fn new(
+        path: &'a Path,
+        to: Option<PictureFormat>,
+        out: &Output,
+    ) -> Result<Self, UserError> {
+        let format = PictureFormat::of_output(path, to)?;
+        let file = (!stdout::is_stdout(path)).then_some(path);
+        if file.is_none() {
+            let binary = match format {
+                PictureFormat::Png => Some("PNG"),
+                PictureFormat::Pdf => Some("PDF"),
+                PictureFormat::Svg => None,
+            };
+            stdout::check(out, binary)?;
         }
-        stdout::check(out, Some("PNG"))?;
-        Ok(Self::StandardOutput)
-    }
-
-    /// Returns `true` if the output is an SVG file.
-    pub(super) fn is_vector(&self) -> bool {
-        match self {
-            Self::StandardOutput => false,
-            Self::File(path) => is_svg(path),
-        }
+        Ok(Self { file, format })
     }
 
     /// Renders a picture as PNG.
@@ -46,20 +51,64 @@ impl<'a> Target<'a> {
         method: &dyn Method,
         progress: &dyn Progress,
     ) -> Result<Rendered, ComposeError> {
-        match self {
-            Self::File(path) => picture.save_png(method, path, progress),
-            Self::StandardOutput => {
-                let fail = |problem| ComposeError::from(stdout::fail(problem));
-                let mut stdout = Stdout::lock();
-                let (size, texts) = (picture.viewport.size, picture.png_texts()?);
-                let written = write_png_by(&mut stdout, size, &texts, fail, |sink| {
-                    picture.render(method, progress, sink)
-                });
-                match stdout.take_failure() {
-                    Some(failure) => Err(failure.into()),
-                    None => written,
-                }
-            }
+        if let Some(path) = self.file {
+            return picture.save_png(method, path, progress);
         }
+        let (size, texts) = (picture.viewport.size, picture.png_texts()?);
+        to_stdout(|stdout| {
+            write_png_by(stdout, size, &texts, failed, |sink| {
+                picture.render(method, progress, sink)
+            })
+        })
+    }
+
+    /// Writes a picture as curves.
+    pub(super) fn write_vector(
+        &self,
+        picture: &Picture,
+        format: VectorFormat,
+    ) -> Result<Rendered, ComposeError> {
+        match self.file {
+            Some(path) => picture.save_vector(format, path),
+            None => to_stdout(|stdout| picture.write_vector(format, stdout, failed)),
+        }
+    }
+
+    /// Renders levels side by side as PNG.
+    ///
+    /// # Errors
+    /// When the output is no PNG file.
+    pub(super) fn write_levels(
+        &self,
+        picture: &Picture,
+        parts: &[LevelPart],
+        method: Option<&dyn Method>,
+        progress: &dyn Progress,
+    ) -> Result<Rendered, UserError> {
+        match (self.file, method) {
+            (Some(path), Some(method)) => {
+                Ok(picture.save_levels_png(parts, method, path, progress)?)
+            }
+            _ => Err(usage_error(
+                "--level each writes a PNG file",
+                "Name one, such as `-o levels.png`, or choose one level",
+            )),
+        }
+    }
+}
+
+fn failed(problem: std::io::Error) -> ComposeError {
+    stdout::fail(problem).into()
+}
+
+/// Writes to standard output, whose own error goes before that of an encoder.
+fn to_stdout(
+    write: impl FnOnce(&mut Stdout) -> Result<Rendered, ComposeError>,
+) -> Result<Rendered, ComposeError> {
+    let mut stdout = Stdout::lock();
+    let written = write(&mut stdout);
+    match stdout.take_failure() {
+        Some(failure) => Err(failure.into()),
+        None => written,
     }
 }

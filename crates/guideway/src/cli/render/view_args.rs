@@ -30,7 +30,7 @@ pub(super) struct ViewArgs {
         allow_hyphen_values = true
     )]
     scale: Option<f64>,
-    /// Draw only the level with this name or id
+    /// Draw only the level with this name or id; `each` draws all levels side by side
     #[arg(long, value_name = "NAME")]
     pub(super) level: Option<String>,
     /// File to draw below the paths: a layout or drawing in a pale color; a `map.yaml` of ROS; or

@@ -5,9 +5,7 @@
 //! | `run` | arguments; measures, continues or shows a run |
 //! | `saved` | the files of a run: reads and writes them |
 //! | `text` | the report on the terminal |
-//! | `names` | names of the run file and the report |
 
-mod names;
 mod run;
 mod saved;
 mod text;

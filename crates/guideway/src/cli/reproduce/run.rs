@@ -8,13 +8,13 @@ use guideway::scene::Cancel;
 use guideway_bench::{Start, StartError};
 use guideway_reproduce::reproduce::{Plan, Run, reproduce, resume};
 
-use super::names::RUN_FILE;
+use super::saved::RUN_FILE;
 use super::{saved, text};
-use crate::cli::exit::Exit;
+use crate::cli::error::Exit;
 use crate::cli::input::check_no_stdout;
 use crate::cli::output::Output;
 use crate::cli::progress_bar::ProgressBar;
-use crate::cli::{interrupt, values};
+use crate::cli::{process, values};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
@@ -101,7 +101,7 @@ fn measure(
         *shown = None;
         *shown = Some(out.progress(part));
     };
-    let run = work(&start, &interrupt::cancel_on_interrupt(), &show)?;
+    let run = work(&start, &process::cancel_on_interrupt(), &show)?;
     drop(shown);
     saved::write_run(&args.out, &run)?;
     if !run.is_whole() {

@@ -10,8 +10,12 @@ use guideway_reproduce::report;
 use guideway_reproduce::reproduce::{ResumeError, Run};
 use serde::Deserialize;
 
-use super::names::{REPORT, RUN_FILE};
 use crate::cli::output;
+
+/// Name of the report, in the JSON answer and in the run file.
+pub(super) const REPORT: &str = "reproduce";
+/// Name of the file that holds the measurements of a run.
+pub(super) const RUN_FILE: &str = "run.json";
 
 /// Version of the run file. A new key does not raise it; a changed or removed one does.
 const RUN_VERSION: u32 = 2;

@@ -7,7 +7,7 @@ use guideway_reproduce::report::PAGE;
 use guideway_reproduce::reproduce::{Finding, PartFacts, Run, Verdict, findings};
 use serde_json::json;
 
-use super::names::{REPORT, RUN_FILE};
+use super::saved::{REPORT, RUN_FILE};
 use crate::cli::output::Output;
 use crate::cli::text;
 

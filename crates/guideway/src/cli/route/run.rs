@@ -10,8 +10,7 @@ use serde_json::{Value, json};
 use super::ends::only_type;
 use super::geojson;
 use crate::cli::convert::{target_to_save, write};
-use crate::cli::error::usage_error;
-use crate::cli::exit::Exit;
+use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::{self, Input};
 use crate::cli::output::{Output, print};
 use crate::cli::{text, values};
@@ -85,7 +84,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let search_ms = progress.finish();
     if let Some(output) = &args.output {
         let route = route.layout(&layout);
-        write(target_to_save(&route, output)?, &route, output)?;
+        let progress = out.progress("writing the route");
+        write(target_to_save(&route, output)?, &route, output, &progress)?;
     }
     let body = json!({
         "file": args.input.path.to_string_lossy(),

@@ -9,8 +9,7 @@ use guideway_viewer::Movement;
 use serde_json::{Value, json};
 
 use super::services::CliServices;
-use crate::cli::error::usage_error;
-use crate::cli::exit::Exit;
+use crate::cli::error::{Exit, usage_error};
 use crate::cli::output::Output;
 use crate::cli::text;
 

@@ -9,7 +9,7 @@ use std::rc::Rc;
 use guideway::layout::{UserError, shown_path};
 
 use super::rules::{ConfigFile, Rules};
-use crate::cli::relative_path::{relative, resolved};
+use crate::cli::input::{relative, resolved};
 
 /// Name of the file.
 const NAME: &str = "guideway.toml";

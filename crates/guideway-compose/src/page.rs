@@ -1,0 +1,113 @@
+//! A page of vector graphics: the elements that layers are written as, and SVG as one kind of page.
+
+use std::borrow::Cow;
+use std::io::{self, Write};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use guideway_formats::svg::{PathData, Stroke, SvgWriter};
+use guideway_scene::{Rgba, TextLine};
+use guideway_spline::Point;
+
+/// Step of coordinates, in pixels: far below what a viewer can show.
+pub(crate) const STEP_PX: f64 = 1e-3;
+
+/// An image to write.
+pub(crate) trait PageImage {
+    /// The bytes of a PNG file.
+    fn png(&self) -> io::Result<Cow<'_, [u8]>>;
+
+    /// Width and height in pixels.
+    fn size_px(&self) -> [u32; 2];
+
+    /// Pixels, top first, with straight alpha.
+    fn pixels(&self) -> impl Iterator<Item = [u8; 4]>;
+}
+
+/// Writes elements in paint order, in pixels of the picture, y down. Every method fails when the
+/// output does.
+pub(crate) trait Page {
+    /// Segments of uniform cubic B-splines, stroked with round caps and joins. An identifier is not
+    /// empty.
+    fn path(
+        &mut self,
+        id: Option<&str>,
+        segments: &[[Point<f64>; 4]],
+        color: Rgba,
+        width_px: f64,
+    ) -> io::Result<()>;
+
+    /// A filled rectangle, given two opposite corners.
+    fn rectangle(&mut self, corners: [Point<f64>; 2], color: Rgba) -> io::Result<()>;
+
+    /// Areas in one color, which is composited once where they overlap. Outer contours turn in one
+    /// direction, holes in the other.
+    fn areas(&mut self, label: &str, color: Rgba, areas: &[Vec<Vec<Point<f64>>>])
+    -> io::Result<()>;
+
+    /// A line of text, without its box.
+    fn text(&mut self, text: &TextLine) -> io::Result<()>;
+
+    /// An image. The matrix (a, b, c, d, e, f of SVG) maps the unit square, y down, to pixels.
+    fn image(&mut self, matrix: [f64; 6], image: &impl PageImage) -> io::Result<()>;
+
+    /// Begins a group with a label that lets what is below it shine through, from opacity 0 to 1.
+    fn begin_group(&mut self, label: &str, opacity: f64) -> io::Result<()>;
+
+    /// Ends the innermost group.
+    fn end_group(&mut self) -> io::Result<()>;
+}
+
+impl<W: Write> Page for SvgWriter<'_, W> {
+    fn path(
+        &mut self,
+        id: Option<&str>,
+        segments: &[[Point<f64>; 4]],
+        color: Rgba,
+        width_px: f64,
+    ) -> io::Result<()> {
+        let mut data = PathData::new(STEP_PX);
+        segments
+            .iter()
+            .for_each(|segment| data.push_segment(segment));
+        let stroke = Stroke::new(color.to_u32(), width_px);
+        SvgWriter::path(self, id.unwrap_or_default(), &data, &stroke)
+    }
+
+    fn rectangle(&mut self, [a, b]: [Point<f64>; 2], color: Rgba) -> io::Result<()> {
+        self.rect([a.x, a.y, b.x - a.x, b.y - a.y], color.to_u32())
+    }
+
+    fn areas(
+        &mut self,
+        label: &str,
+        color: Rgba,
+        areas: &[Vec<Vec<Point<f64>>>],
+    ) -> io::Result<()> {
+        self.polygon_layer(label, color.to_u32(), STEP_PX, areas)
+    }
+
+    fn text(&mut self, text: &TextLine) -> io::Result<()> {
+        let height = text.char_width_px / TextLine::CHAR_ASPECT;
+        // From the middle of a line to its baseline: half the height of a capital.
+        let at = text.left_middle_px + Point::new(0.0, 0.35 * height);
+        let (width, color) = (text.width_px(), text.color.to_u32());
+        SvgWriter::text(self, [at.x, at.y], height, width, color, &text.text)
+    }
+
+    fn image(&mut self, matrix: [f64; 6], image: &impl PageImage) -> io::Result<()> {
+        let data = STANDARD.encode(image.png()?);
+        SvgWriter::image(self, matrix, &format!("data:image/png;base64,{data}"))
+    }
+
+    fn begin_group(&mut self, label: &str, opacity: f64) -> io::Result<()> {
+        match opacity < 1.0 {
+            true => self.begin_faded_group(opacity),
+            false => SvgWriter::begin_group(self, label),
+        }
+    }
+
+    fn end_group(&mut self) -> io::Result<()> {
+        SvgWriter::end_group(self)
+    }
+}
