@@ -286,7 +286,7 @@ mod tests {
         assert!(content.contains("10 5 m 20 5 30 5 40 5 c S"), "{content}");
         assert!(content.contains("2.5 w"), "{content}");
         // One path, in which the hole turns against the outer contour.
-        let area = "0 0 m 9 0 l 9 9 l h\n4 2 m 6 4 l 6 2 l h\nf";
+        let area = "0 0 m 9 0 l 9 9 l h 4 2 m 6 4 l 6 2 l h f";
         assert!(content.contains(area), "{content}");
         assert!(content.matches(" c").count() > 4, "{content}");
     }

@@ -192,7 +192,8 @@ fn unroll(spline: &mut spline::Spline) {
     };
     let multiplicity = knots.iter().take_while(|knot| *knot == first).count();
     let missing = degree + 1 - multiplicity.min(degree + 1);
-    if missing == 0 || knots.len() != count + multiplicity || count < missing {
+    let is_unrolled = missing == 0 || count < missing || count < multiplicity;
+    if is_unrolled || knots.len() != count + multiplicity {
         return;
     }
     let period = last - first;
