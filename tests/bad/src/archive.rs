@@ -58,7 +58,7 @@ pub enum ArchiveError {
     },
     /// A line begins as an entry does, but is none.
     #[error(
-        "line {line}: expected `-- NAME --`, `-- NAME (escaped) --` or `-- NAME (base64) --` with a \
+        "line {line}: expected `-- NAME --`, `-- NAME (escaped) --` or `-- NAME (base64) --`, a \
          name of letters, digits and `-._`; in the lines of a file, mark the entry (escaped) and \
          write `\\x2d- `"
     )]

@@ -1,4 +1,5 @@
-//! Cuts curves at the boundary that clips a block (XCLIP): runs in meters in, the pieces inside out.
+//! Cuts curves at the boundary that clips a block (XCLIP): runs in meters in, the pieces inside
+//! out.
 
 use guideway_spline::bezier::{Bezier, bounds, point, split};
 use guideway_spline::{Bounds, Point, Runs, uniform};

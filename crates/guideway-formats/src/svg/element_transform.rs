@@ -13,14 +13,26 @@ use super::context::ElementContext;
 use super::transform::{
     about, attribute_transform, css_transform, single_transform, transform_origin,
 };
-use super::tree_walker::TreeWalker;
 use super::viewport::Viewport;
 use crate::ReadError;
+use crate::xml_builder::XmlBuilder;
 
-impl<'d, 't> TreeWalker<'_, 'd, 't> {
+/// Measures elements.
+pub(super) trait Measure<'a, 'd, 't> {
+    /// The builder, for findings.
+    fn base(&mut self) -> &mut XmlBuilder<'a, 'd, 't>;
+
+    /// The box of the shapes of an element, in its user space; `None` where it is not known.
+    fn bounding_box(
+        &mut self,
+        node: Node<'d, 't>,
+        cascade: &Cascade<'d>,
+        context: &ElementContext<'_>,
+    ) -> Result<Option<Bounds<f64>>, ReadError>;
+
     /// The transform of an element about its origin, which does not apply to `context` yet. Reports
     /// a finding, and applies no transform, if it is malformed.
-    pub(super) fn transform(
+    fn transform(
         &mut self,
         node: Node<'d, 't>,
         cascade: &Cascade<'d>,
@@ -45,7 +57,7 @@ impl<'d, 't> TreeWalker<'_, 'd, 't> {
         let Some(transform) = transform else {
             let message = || "its `transform` is malformed".to_owned();
             let remedy = "It is drawn without the `transform`; correct it";
-            let base = &mut self.mapper.base;
+            let base = self.base();
             base.report(Code::WrongType, node, message, remedy);
             return Ok(Affine::IDENTITY);
         };
@@ -78,50 +90,9 @@ impl<'d, 't> TreeWalker<'_, 'd, 't> {
             let message = || format!("`transform-box: {name}` is not supported here");
             let remedy = "It is drawn with the origin of `view-box`; apply its transform in the \
                           drawing program";
-            let base = &mut self.mapper.base;
+            let base = self.base();
             base.report(Code::UnknownValue, node, message, remedy);
         }
         Ok(measured.unwrap_or(of_view))
-    }
-
-    /// The box of the shapes of an element, in its user space; `None` if it is a symbol, or takes
-    /// more work than the file may.
-    fn bounding_box(
-        &mut self,
-        node: Node<'d, 't>,
-        cascade: &Cascade<'d>,
-        context: &ElementContext<'_>,
-    ) -> Result<Option<Bounds<f64>>, ReadError> {
-        if node.tag_name().name() == "symbol" {
-            return Ok(None);
-        }
-        // The box of a group needs that of groups in it, as each of these does for itself.
-        if let Some((viewport, known)) = self.boxes.get(&node.id())
-            && *viewport == context.viewport
-        {
-            return Ok(*known);
-        }
-        let around = self.mapper.measured.replace(None);
-        let was_silent = std::mem::replace(&mut self.mapper.base.is_silent, true);
-        let content = ElementContext {
-            meters_from_user: Affine::IDENTITY,
-            // Everything in it is walked once more, and pays for that as repetitions do.
-            id_prefix: "/",
-            depth: context.depth + 1,
-            ..*context
-        };
-        let walked = self.content(node, cascade, &content);
-        self.mapper.base.is_silent = was_silent;
-        let measured = std::mem::replace(&mut self.mapper.measured, around);
-        walked?;
-        // Without shapes nothing is drawn, whatever its box.
-        let nothing = Bounds {
-            min: Point::default(),
-            max: Point::default(),
-        };
-        let measured = measured.flatten().unwrap_or(nothing);
-        let measured = (!self.budget.is_exhausted()).then_some(measured);
-        self.boxes.insert(node.id(), (context.viewport, measured));
-        Ok(measured)
     }
 }

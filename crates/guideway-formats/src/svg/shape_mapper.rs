@@ -1,11 +1,12 @@
 //! Maps shapes to the paths of a layout, with color, width and group.
 
-use guideway_layout::{Code, Direction, NewPath, Value};
+use guideway_layout::{Code, Direction, Layout, NewPath, Value};
 use guideway_spline::{Affine, Bounds};
 use roxmltree::Node;
 
 use super::cascade::Cascade;
 use super::context::ElementContext;
+use super::element_counts::{element_counts, report_ignored};
 use super::path_builder::PathBuilder;
 use super::shapes::append_shape;
 use super::viewport::METERS_PER_PX;
@@ -164,6 +165,31 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         let remedy = "The width of the view is used; correct the width";
         self.base.report(Code::OutOfRange, node, message, remedy);
         None
+    }
+
+    /// Sets styles, counts and provenance of the layout, and reports ignored elements.
+    pub(super) fn finish(self, root: Node<'d, 't>, ignored_selectors: usize) -> Layout {
+        let Self {
+            base,
+            colors,
+            widths_m,
+            clipped,
+            measured: _,
+        } = self;
+        let mut builder = base.builder;
+        report_ignored(&mut builder, root, clipped, ignored_selectors);
+        let mut layout = builder.layout;
+        crate::Format::Svg
+            .name()
+            .clone_into(&mut layout.provenance.format);
+        let version = root.attribute("version").unwrap_or_default();
+        layout.provenance.format_version = version.chars().take(16).collect();
+        layout.provenance.counts = element_counts(root);
+        if !colors.is_empty() {
+            layout.paths.set_color_rgba(colors);
+            layout.paths.set_width_m(widths_m);
+        }
+        layout
     }
 
     /// Records a shape as refused, with a finding.

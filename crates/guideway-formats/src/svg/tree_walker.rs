@@ -11,33 +11,34 @@ use svgtypes::ViewBox;
 use super::cascade::Cascade;
 use super::conditions::{choice, is_met};
 use super::context::ElementContext;
-use super::element_counts::{element_counts, report_ignored};
+use super::element_transform::Measure;
 use super::page::{DEFAULT_PAGE_PX, page_size};
 use super::repeat_budget::RepeatBudget;
 use super::shape_mapper::ShapeMapper;
 use super::shapes::SHAPES;
 use super::style::{PAINT_SERVERS, PaintServers, Style};
 use super::style_sheet::StyleSheet;
-use super::viewport::{METERS_PER_PX, Viewport, view_box, view_box_transform};
+use super::viewport::{METERS_PER_PX, Viewport, corner, view_box, view_box_transform};
 use crate::ReadError;
 use crate::source::Source;
 use crate::xml::Xml;
+use crate::xml_builder::XmlBuilder;
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 
 /// Walks a document.
 pub(super) struct TreeWalker<'a, 'd, 't> {
-    pub(super) mapper: ShapeMapper<'a, 'd, 't>,
+    mapper: ShapeMapper<'a, 'd, 't>,
     sheet: &'d StyleSheet<'d>,
     /// The first element per `id`.
     ids: HashMap<&'d str, Node<'d, 't>>,
     paint_servers: PaintServers<'d>,
     /// Targets of the references around the current element.
     targets: Vec<NodeId>,
-    pub(super) budget: RepeatBudget,
+    budget: RepeatBudget,
     /// Measured elements: the viewport, and the box of their shapes in their user space.
-    pub(super) boxes: HashMap<NodeId, (Viewport, Option<Bounds<f64>>)>,
+    boxes: HashMap<NodeId, (Viewport, Option<Bounds<f64>>)>,
 }
 
 impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
@@ -75,7 +76,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         for child in root.children() {
             self.element(child, &context)?;
         }
-        Ok(self.finish(root))
+        Ok(self.mapper.finish(root, self.sheet.ignored_selectors))
     }
 
     /// The context of the children of the root.
@@ -116,31 +117,6 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             id_prefix: "",
             depth: 0,
         }
-    }
-
-    /// Sets styles, counts and provenance of the layout, and reports ignored elements.
-    fn finish(self, root: Node<'d, 't>) -> Layout {
-        let ShapeMapper {
-            base,
-            colors,
-            widths_m,
-            clipped,
-            measured: _,
-        } = self.mapper;
-        let mut builder = base.builder;
-        report_ignored(&mut builder, root, clipped, self.sheet.ignored_selectors);
-        let mut layout = builder.layout;
-        crate::Format::Svg
-            .name()
-            .clone_into(&mut layout.provenance.format);
-        let version = root.attribute("version").unwrap_or_default();
-        layout.provenance.format_version = version.chars().take(16).collect();
-        layout.provenance.counts = element_counts(root);
-        if !colors.is_empty() {
-            layout.paths.set_color_rgba(colors);
-            layout.paths.set_width_m(widths_m);
-        }
-        layout
     }
 
     fn element(
@@ -194,7 +170,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
     }
 
     /// Walks what an element shows, in its user space.
-    pub(super) fn content(
+    fn content(
         &mut self,
         node: Node<'d, 't>,
         cascade: &Cascade<'d>,
@@ -366,9 +342,49 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
     }
 }
 
-/// The position in the attributes `x` and `y`.
-fn corner(node: Node<'_, '_>, viewport: Viewport) -> Point<f64> {
-    let x = viewport.attribute(node, "x", Viewport::width);
-    let y = viewport.attribute(node, "y", Viewport::height);
-    Point::new(x.unwrap_or(0.0), y.unwrap_or(0.0))
+impl<'a, 'd, 't> Measure<'a, 'd, 't> for TreeWalker<'a, 'd, 't> {
+    fn base(&mut self) -> &mut XmlBuilder<'a, 'd, 't> {
+        &mut self.mapper.base
+    }
+
+    /// The box of the shapes of an element, in its user space; `None` if it is a symbol, or takes
+    /// more work than the file may.
+    fn bounding_box(
+        &mut self,
+        node: Node<'d, 't>,
+        cascade: &Cascade<'d>,
+        context: &ElementContext<'_>,
+    ) -> Result<Option<Bounds<f64>>, ReadError> {
+        if node.tag_name().name() == "symbol" {
+            return Ok(None);
+        }
+        // The box of a group needs that of groups in it, as each of these does for itself.
+        if let Some((viewport, known)) = self.boxes.get(&node.id())
+            && *viewport == context.viewport
+        {
+            return Ok(*known);
+        }
+        let around = self.mapper.measured.replace(None);
+        let was_silent = std::mem::replace(&mut self.mapper.base.is_silent, true);
+        let content = ElementContext {
+            meters_from_user: Affine::IDENTITY,
+            // Everything in it is walked once more, and pays for that as repetitions do.
+            id_prefix: "/",
+            depth: context.depth + 1,
+            ..*context
+        };
+        let walked = self.content(node, cascade, &content);
+        self.mapper.base.is_silent = was_silent;
+        let measured = std::mem::replace(&mut self.mapper.measured, around);
+        walked?;
+        // Without shapes nothing is drawn, whatever its box.
+        let nothing = Bounds {
+            min: Point::default(),
+            max: Point::default(),
+        };
+        let measured = measured.flatten().unwrap_or(nothing);
+        let measured = (!self.budget.is_exhausted()).then_some(measured);
+        self.boxes.insert(node.id(), (context.viewport, measured));
+        Ok(measured)
+    }
 }

@@ -118,3 +118,10 @@ pub(super) fn view_box_transform(
         .then(Affine::scale(x, y, Point::new(0.0, 0.0)))
         .then(Affine::translation(offset))
 }
+
+/// The position in the attributes `x` and `y`.
+pub(super) fn corner(node: Node<'_, '_>, viewport: Viewport) -> Point<f64> {
+    let x = viewport.attribute(node, "x", Viewport::width);
+    let y = viewport.attribute(node, "y", Viewport::height);
+    Point::new(x.unwrap_or(0.0), y.unwrap_or(0.0))
+}

@@ -52,7 +52,8 @@ fn repeat(each: impl Fn(usize) -> String, between: &str) -> String {
 
 fn lif(nodes: &str, edges: &str) -> String {
     format!(
-        "{{\"metaInformation\": {{\"lifVersion\": \"1.0.0\"}}, \"layouts\": [{{\"layoutId\": \"L\",\n\
+        "{{\"metaInformation\": {{\"lifVersion\": \"1.0.0\"}}, \"layouts\": \
+         [{{\"layoutId\": \"L\",\n\
          \"nodes\": [{nodes}],\n\"edges\": [{edges}], \"stations\": []}}]}}\n"
     )
 }
@@ -92,7 +93,8 @@ fn lif_curve(at: impl Fn(usize) -> [f64; 2]) -> String {
     let knot = |i: usize| i.clamp(degree, MANY) - degree;
     let knots: Vec<String> = (0..=MANY + degree).map(|i| knot(i).to_string()).collect();
     let curve = format!(
-        "{{\"vehicleTypeId\": \"t\", \"trajectory\": {{\"degree\": {degree}, \"knotVector\": [{}],\n\
+        "{{\"vehicleTypeId\": \"t\", \"trajectory\": {{\"degree\": {degree}, \
+         \"knotVector\": [{}],\n\
          \"controlPoints\": [{}]}}}}",
         knots.join(", "),
         repeat(point, ",\n")

@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// The files of an archive; none if it does not exist.
+/// The files of an archive; empty if it does not exist.
 fn stored(target: &str) -> Result<Files, Box<dyn Error>> {
     let path = archive_path(target);
     if !path.exists() {
@@ -60,7 +60,8 @@ fn stored(target: &str) -> Result<Files, Box<dyn Error>> {
 
 fn write(target: &str, files: Files) -> Result<(), Box<dyn Error>> {
     let comment = format!(
-        "# Seeds of the fuzz target `{target}`. `make_seeds` made them, and took those named {KEPT} \
+        "# Seeds of the fuzz target `{target}`. `make_seeds` made them, and took those named \
+         {KEPT} \
          from\n# a minimized corpus.\n-- none --\n"
     );
     let mut archive = Archive::parse(&comment)?.emptied();

@@ -194,14 +194,14 @@ fn without_needless(corners: &[P], tolerance: f64) -> Vec<P> {
         return Vec::new();
     };
     let mut kept = vec![first];
-    let mut sight = Sight::from(first);
+    let mut cone = Cone::from(first);
     let mut last = first;
     for &p in corners[1..].iter().chain([&first]) {
-        if !sight.takes(p, tolerance) {
+        if !cone.takes(p, tolerance) {
             kept.push(last);
-            sight = Sight::from(last);
-            // A sight takes the first corner always.
-            sight.takes(p, tolerance);
+            cone = Cone::from(last);
+            // A cone takes the first corner always.
+            cone.takes(p, tolerance);
         }
         last = p;
     }
@@ -209,7 +209,7 @@ fn without_needless(corners: &[P], tolerance: f64) -> Vec<P> {
 }
 
 /// The directions from a corner that meet the discs around the corners since.
-struct Sight {
+struct Cone {
     from: P,
     /// The direction from which angles count, once a corner is out of the tolerance.
     ahead: Option<P>,
@@ -219,7 +219,7 @@ struct Sight {
     far: f64,
 }
 
-impl Sight {
+impl Cone {
     fn from(from: P) -> Self {
         Self {
             from,
