@@ -207,6 +207,9 @@ fn periodic_splines_are_closed_and_smooth() {
     for (a, b) in vertices(&found, "A").iter().zip(vertices(&expected, "A")) {
         assert!(a.distance(b) < 1e-12, "{a:?} {b:?}");
     }
+    // A first knot that occurs more often than there are points.
+    let repeated = "0 SPLINE\n5 A\n70 3\n71 8\n40 0\n40 0\n40 5\n10 4\n20 0\n";
+    assert!(codes(&drawing("", "", repeated)).contains(&Code::TooFewPoints));
     // A first knot that occurs twice: n + 2 knots.
     let doubled = spline(3, 3, &[0, 0, 1, 2, 3, 4, 4]);
     assert!(!codes(&doubled).contains(&Code::BadKnots));
