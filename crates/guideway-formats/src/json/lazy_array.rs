@@ -21,7 +21,7 @@ const BATCH_PARTS: usize = 64;
 /// The text of an array, of valid syntax.
 #[derive(Debug)]
 pub(crate) struct LazyArray<'t> {
-    pub(super) text: &'t str,
+    pub(crate) text: &'t str,
 }
 
 impl<'t> FromJson<'t> for LazyArray<'t> {

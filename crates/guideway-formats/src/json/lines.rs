@@ -7,14 +7,8 @@ use std::ops::Range;
 
 use guideway_layout::{Layout, LineIndex, Origin};
 
-use super::scan::{items_at, member};
+use super::scan::{items_at, member, offset_in};
 use super::skeleton::Skeleton;
-
-/// Returns the first byte of a part of a text; `None` for a text of its own.
-pub(crate) fn offset_in(text: &str, part: &str) -> Option<usize> {
-    let start = (part.as_ptr() as usize).checked_sub(text.as_ptr() as usize)?;
-    (start + part.len() <= text.len()).then_some(start)
-}
 
 /// Returns the places in a document of the items of an array that its root object has, if it has
 /// one.

@@ -19,6 +19,12 @@ impl MemberRange {
     }
 }
 
+/// Returns the first byte of a part of a text; `None` for a text of its own.
+pub(crate) fn offset_in(text: &str, part: &str) -> Option<usize> {
+    let start = (part.as_ptr() as usize).checked_sub(text.as_ptr() as usize)?;
+    (start + part.len() <= text.len()).then_some(start)
+}
+
 /// Returns the content of a string in quotes.
 pub(crate) fn unescaped(quoted: &str) -> String {
     serde_json::from_str(quoted).unwrap_or_default()

@@ -8,11 +8,8 @@
 
 use guideway_layout::{Limits, TextPosition};
 
-use super::field::Field;
-use super::lazy_array::LazyArray;
 use super::limits::STEPS;
-use super::lines::offset_in;
-use super::scan::unescaped;
+use super::scan::{offset_in, unescaped};
 use crate::input::Input;
 use crate::source::Source;
 use crate::text::BYTE_ORDER_MARK;
@@ -77,9 +74,9 @@ impl Skeleton {
         Ok(scan.finish())
     }
 
-    /// The items of an array that the text is the skeleton of; `None` for another value.
-    pub(crate) fn array(&self, field: &Field<LazyArray<'_>>) -> Option<&LongArray> {
-        let at = offset_in(&self.text, field.get()?.text)?;
+    /// The items of a long array, by its part of the text; `None` for another part.
+    pub(crate) fn array(&self, part: &str) -> Option<&LongArray> {
+        let at = offset_in(&self.text, part)?;
         let found = self.arrays.binary_search_by_key(&at, |array| array.at);
         self.arrays.get(found.ok()?)
     }

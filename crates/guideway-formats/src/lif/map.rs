@@ -92,10 +92,10 @@ impl Mapper<'_> {
         list: &str,
         level: usize,
     ) -> Result<(), ArrayFault> {
-        if field.get().is_none() {
+        let Some(LazyArray { text }) = field.get() else {
             return Ok(());
-        }
-        let array = self.skeleton.array(field).ok_or(ArrayFault::Separator)?;
+        };
+        let array = self.skeleton.array(text).ok_or(ArrayFault::Separator)?;
         let (mut index, mut start) = (0, array.first);
         array.for_each_batch::<K>(self.input, |parts| {
             self.builder

@@ -5,7 +5,7 @@
 //! |---|---|---|---|
 //! | prepare | layout | levels, nodes, path ends, edges | `network`, `edges` |
 //! | convert | rows of the layout | JSON objects | `elements`, `levels`, `columns`, `actions` |
-//! | write | objects | text | `file` |
+//! | write | objects | text | `file`, `options` |
 //! | account | layout | losses | `losses` |
 
 mod actions;
@@ -16,9 +16,9 @@ mod file;
 mod levels;
 mod losses;
 mod network;
+mod options;
 
 use std::io::{self, Write};
-use std::time::SystemTime;
 
 use guideway_layout::Layout;
 
@@ -31,15 +31,7 @@ pub(super) use self::edges::{EdgeGroups, EdgeRef, Edges};
 pub(super) use self::elements::{Elements, add_missing};
 pub(super) use self::losses::{add_lost, add_required};
 pub(super) use self::network::{Network, level_of, path_types};
-
-/// Options of [`write_layout`].
-#[derive(Clone, Copy, Debug)]
-pub struct WriteOptions {
-    /// Version of the format.
-    pub version: Version,
-    /// Time of the export, for `exportTimestamp` of a new file.
-    pub exported: SystemTime,
-}
+pub use self::options::WriteOptions;
 
 /// Writes a layout: levels as layouts, nodes, stations, and paths as edges. Returns the losses.
 ///
