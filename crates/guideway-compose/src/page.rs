@@ -12,6 +12,9 @@ use guideway_spline::Point;
 /// Step of coordinates, in pixels: far below what a viewer can show.
 pub(crate) const STEP_PX: f64 = 1e-3;
 
+/// Step of the coordinates of areas, which have many corners, in pixels.
+const AREA_STEP_PX: f64 = 1e-2;
+
 /// An image to write.
 pub(crate) trait PageImage {
     /// The bytes of a PNG file.
@@ -84,7 +87,7 @@ impl<W: Write> Page for SvgWriter<'_, W> {
         color: Rgba,
         areas: &[Vec<Vec<Point<f64>>>],
     ) -> io::Result<()> {
-        self.polygon_layer(label, color.to_u32(), STEP_PX, areas)
+        self.polygon_layer(label, color.to_u32(), AREA_STEP_PX, areas)
     }
 
     fn text(&mut self, text: &TextLine) -> io::Result<()> {

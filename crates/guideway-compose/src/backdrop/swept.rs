@@ -36,9 +36,6 @@ const MOST_POLYGONS: u64 = 400_000;
 /// threads. The number of threads does not count, lest the picture depend on it.
 const UNION_BYTES: u64 = 1024;
 
-/// Step of the coordinates of an outline in SVG, in pixels.
-const STEP_PX: f64 = 0.01;
-
 /// The areas that one vehicle sweeps along paths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweptAreas {
