@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use guideway_compose::VectorFormat;
 use guideway_document::{Element, SelectMode};
 use guideway_layout::CheckOptions;
 
@@ -86,19 +87,15 @@ pub(crate) enum Action {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Export {
     /// As PNG of this width in pixels.
-    Png {
-        path: PathBuf,
-        width_px: u32,
-    },
-    Svg {
-        path: PathBuf,
-    },
+    Png { path: PathBuf, width_px: u32 },
+    /// As SVG or PDF.
+    Vector { path: PathBuf, format: VectorFormat },
 }
 
 impl Export {
     pub(crate) fn path(&self) -> &Path {
         match self {
-            Self::Png { path, .. } | Self::Svg { path } => path,
+            Self::Png { path, .. } | Self::Vector { path, .. } => path,
         }
     }
 }

@@ -9,6 +9,7 @@ pub(crate) enum PromptKind {
     SaveAs,
     ExportPng,
     ExportSvg,
+    ExportPdf,
     FloorPlan,
     SaveProject,
 }

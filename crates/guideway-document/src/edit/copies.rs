@@ -70,7 +70,9 @@ impl<'a> Copies<'a> {
         };
         let [path_names, node_names, station_names] = &mut self.names;
         let name = |names: &mut Names<'_>, id: &str| match source.number {
-            Some(number) => names.unique(&format!("{id} copy {number}")),
+            Some(number) => names
+                .next_number(id)
+                .unwrap_or_else(|| names.unique(&format!("{id} copy {number}"))),
             None => names.unique(id),
         };
         for row in &elements.nodes {
@@ -97,11 +99,31 @@ impl<'a> Copies<'a> {
             if let Some(curve) = paths.written_curve(at) {
                 self.written.push((self.paths.len(), curve.mapped(by)));
             }
+            let ends = [path.start_node(), path.end_node()];
+            let new_ends = ends.map(|end| end.and_then(node));
+            // A path that is called after its ends is called after those of the copy.
+            let by_ends = || {
+                source.number?;
+                let old = ends.map(|end| Some(layout.nodes.id(end?)));
+                let new = new_ends.map(|end| {
+                    let number = (end? - self.first_rows[1]) as usize;
+                    Some(self.nodes[number].id.as_str())
+                });
+                let ([Some(from), Some(to)], [Some(start), Some(end)]) = (old, new) else {
+                    return None;
+                };
+                let between = path.id().strip_prefix(from)?.strip_suffix(to)?;
+                Some(format!("{start}{between}{end}"))
+            };
+            let id = match by_ends() {
+                Some(id) => path_names.unique(&id),
+                None => name(path_names, path.id()),
+            };
             self.paths.push(Insertion {
-                id: name(path_names, path.id()),
+                id,
                 runs,
-                start_node: path.start_node().and_then(node),
-                end_node: path.end_node().and_then(node),
+                start_node: new_ends[0],
+                end_node: new_ends[1],
                 direction: path.direction(),
                 level: level(path.level()),
                 vehicle_types: paths.vehicle_types().of(at).map(str::to_owned).collect(),

@@ -41,6 +41,22 @@ impl<'a> Names<'a> {
         name
     }
 
+    /// Takes the next number that is free, with as many digits: for `dock-07` it is `dock-08`, or
+    /// `dock-12` if those up to `dock-11` are in use. `None` for a name that ends in no number.
+    pub(super) fn next_number(&mut self, id: &str) -> Option<String> {
+        let stem = id.trim_end_matches(|sign: char| sign.is_ascii_digit());
+        let width = id.len() - stem.len();
+        let own: u32 = id[stem.len()..].parse().ok()?;
+        // A number of a million copies is not looked for from the first one on.
+        let last = self.numbers.get(stem).copied().unwrap_or(own).max(own);
+        let numbers = last.checked_add(1)?..=u32::MAX;
+        let mut names = numbers.map(|number| (number, format!("{stem}{number:0width$}")));
+        let (number, name) = names.find(|(_, name)| !self.is_taken(name))?;
+        self.numbers.insert(stem.to_owned(), number);
+        self.new.insert(name.clone());
+        Some(name)
+    }
+
     /// Takes names for the pieces of an element: `NAME.1`, `NAME.2` and so on, without those in
     /// use.
     pub(super) fn pieces(&mut self, name: &str, count: usize) -> Vec<String> {

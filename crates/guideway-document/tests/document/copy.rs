@@ -1,9 +1,9 @@
 //! Copies inside a document, and from one document into another.
 
 use guideway_document::{Document, Elements, PropertyRef};
-use guideway_layout::{CompareOptions, Layout, Level, Quantity, Value, differences};
+use guideway_layout::{CompareOptions, Layout, Level, NewPath, Quantity, Value, differences};
 use guideway_scene::{SceneOptions, Table};
-use guideway_spline::Affine;
+use guideway_spline::{Affine, Runs};
 
 use crate::site::{document_of, ends, is_near, p, square};
 
@@ -128,4 +128,36 @@ fn paste_names_the_level_or_column_that_does_not_fit() {
         "{error}"
     );
     assert!(!target.is_changed());
+}
+
+#[test]
+fn copies_of_numbered_elements_go_on_with_the_numbers() {
+    let mut layout = Layout::default();
+    for (id, x) in [("dock-08", 0.0), ("dock-09", 10.0), ("dock-11", 20.0)] {
+        layout.nodes.push(id, p(x, 0.0), None);
+    }
+    let mut runs = Runs::default();
+    runs.push_line(p(0.0, 0.0), p(10.0, 0.0));
+    for (id, end) in [("dock-08--dock-09", Some(1)), ("aisle 7", None)] {
+        layout.paths.push(&NewPath {
+            id,
+            runs: &runs,
+            start_node: Some(0),
+            end_node: end,
+            ..NewPath::default()
+        });
+    }
+    let mut document = document_of(layout);
+    document
+        .copy(&Elements::of_paths([0]), 2, p(0.0, 5.0))
+        .unwrap();
+    let layout = document.layout();
+    let nodes: Vec<&str> = (3..7).map(|node| layout.nodes.id(node)).collect();
+    assert_eq!(nodes, ["dock-10", "dock-12", "dock-13", "dock-14"]);
+    let paths = [2, 3].map(|row| layout.paths.id(row));
+    assert_eq!(paths, ["dock-10--dock-12", "dock-13--dock-14"]);
+    document
+        .copy(&Elements::of_paths([1]), 1, p(0.0, 5.0))
+        .unwrap();
+    assert_eq!(document.layout().paths.id(4), "aisle 8");
 }

@@ -32,7 +32,7 @@ fn copies_keep_attributes_and_are_evenly_spaced() {
     for (row, y) in [(3, 102.0), (4, 202.0), (5, 302.0)] {
         assert!(is_near(ends(&document, row).0, p(0.0, y)));
     }
-    assert_eq!(document.layout().paths.id(4), "path-2 copy 2");
+    assert_eq!(document.layout().paths.id(4), "path-4");
     // A copy of a copy has the attributes of the first.
     document.copy_selection(1, p(0.0, 1000.0)).unwrap();
     let saved = document.to_layout();

@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use guideway_compose::VectorFormat;
 use guideway_layout::shown_path;
 
 use super::state::App;
@@ -74,7 +75,10 @@ impl App {
         }
         let again = match export {
             Export::Png { .. } => Command::ExportPng,
-            Export::Svg { .. } => Command::ExportSvg,
+            Export::Vector { format, .. } => match format {
+                VectorFormat::Svg => Command::ExportSvg,
+                VectorFormat::Pdf => Command::ExportPdf,
+            },
         };
         self.dialogs.confirm.ask(Question {
             file: export.path().to_owned(),
@@ -104,9 +108,9 @@ impl App {
                 };
                 self.writer.start(None, Some(job), repaint, write);
             }
-            Export::Svg { path } => {
+            Export::Vector { path, format } => {
                 let write = move || {
-                    services.export_svg(&picture, &path)?;
+                    services.export_vector(&picture, format, &path)?;
                     let text = say!("Wrote {path}", path = shown_path(&path));
                     Ok(WriteOutcome::Written(text))
                 };

@@ -102,6 +102,7 @@ impl App {
             Command::PlaceFloorPlan => self.plan_editor.is_open ^= true,
             Command::ExportPng => self.ask_for_file(PromptKind::ExportPng),
             Command::ExportSvg => self.ask_for_file(PromptKind::ExportSvg),
+            Command::ExportPdf => self.ask_for_file(PromptKind::ExportPdf),
             Command::CopyPicture => self.copy_picture(),
             Command::Close => self.request_close(self.files.active_index()),
             Command::Quit => self.dialogs.leave.quit(ctx, &self.files),

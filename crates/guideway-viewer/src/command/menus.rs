@@ -16,7 +16,7 @@ pub(crate) const MENUS: [Menu; 7] = [
         groups: &[
             &[NewLayout, Open, OpenRecent, Reload],
             &[Save, SaveAs, SaveProject],
-            &[ExportPng, ExportSvg, CopyPicture],
+            &[ExportPng, ExportSvg, ExportPdf, CopyPicture],
             &[FloorPlan, PlaceFloorPlan],
             &[Close, Quit],
         ],

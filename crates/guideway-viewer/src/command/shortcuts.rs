@@ -25,6 +25,7 @@ pub(crate) const SHORTCUTS: &[(Command, KeyboardShortcut)] = &[
     on(Command::SaveAs, CTRL_SHIFT, Key::S),
     on(Command::ExportPng, CTRL, Key::E),
     on(Command::ExportSvg, CTRL_SHIFT, Key::E),
+    on(Command::ExportPdf, CTRL, Key::P),
     on(Command::CopyPicture, CTRL_SHIFT, Key::C),
     on(Command::FloorPlan, CTRL, Key::L),
     on(Command::Close, CTRL, Key::W),

@@ -127,6 +127,7 @@ fn needs_file(command: Command) -> bool {
                 | Command::SaveAs
                 | Command::ExportPng
                 | Command::ExportSvg
+                | Command::ExportPdf
                 | Command::CopyPicture
                 | Command::Close
                 | Command::Undo

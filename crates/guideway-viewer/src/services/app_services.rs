@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use guideway_compose::FloorPlan;
+use guideway_compose::{FloorPlan, VectorFormat};
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, UserError};
 use guideway_scene::{Frame, Method, View};
@@ -110,11 +110,16 @@ pub trait AppServices: Send + Sync {
         path: &Path,
     ) -> Result<(), UserError>;
 
-    /// Writes a picture as SVG with exact curves, atomically.
+    /// Writes a picture as SVG or PDF with exact curves, atomically.
     ///
     /// # Errors
-    /// When the file cannot be written, or SVG cannot express the style.
-    fn export_svg(&self, picture: &PictureRequest, path: &Path) -> Result<(), UserError>;
+    /// When the file cannot be written, or the format cannot express the style.
+    fn export_vector(
+        &self,
+        picture: &PictureRequest,
+        format: VectorFormat,
+        path: &Path,
+    ) -> Result<(), UserError>;
 
     /// Renders the areas that a vehicle sweeps along paths of a layout, on a transparent
     /// background.

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, SystemTime};
 
-use guideway_compose::FloorPlan;
+use guideway_compose::{FloorPlan, VectorFormat};
 use guideway_cpu::Cpu;
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, NewPath, Value};
@@ -269,7 +269,12 @@ impl AppServices for TestServices {
         Ok(Frame::new(export.view.size()))
     }
 
-    fn export_svg(&self, _: &PictureRequest, _: &Path) -> Result<(), UserError> {
+    fn export_vector(
+        &self,
+        _: &PictureRequest,
+        _: VectorFormat,
+        _: &Path,
+    ) -> Result<(), UserError> {
         Ok(())
     }
 

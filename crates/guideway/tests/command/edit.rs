@@ -206,10 +206,7 @@ fn a_dry_run_lists_what_each_step_touches_and_writes_nothing() {
     let done = edit(folder.path(), &site(), script, &["--dry-run"]);
     let said = stdout(&done);
     assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
-    assert!(
-        said.contains("  1 copy: ") && said.contains(" copy 1"),
-        "{said}"
-    );
+    assert!(said.contains("  1 copy: "), "{said}");
     assert!(
         said.contains("  2 create-station: 1 station: PICK-07"),
         "{said}"

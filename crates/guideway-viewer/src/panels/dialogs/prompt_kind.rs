@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use guideway_compose::VectorFormat;
+
 use crate::action::{Action, Export};
 use crate::file_purpose::PromptKind;
 use crate::language::t;
@@ -15,6 +17,7 @@ impl PromptKind {
             Self::SaveAs => t("Save as (the extension selects the format)"),
             Self::ExportPng => t("Export PNG file"),
             Self::ExportSvg => t("Export SVG file"),
+            Self::ExportPdf => t("Export PDF file"),
             Self::SaveProject => t("Save project"),
             Self::FloorPlan => t("Floor plan: an image with its scale, such as \
                  hall.png@px-per-m=20,offset=-3,-2,rotate=90, a map.yaml of ROS, or any layout or \
@@ -35,6 +38,7 @@ impl PromptKind {
             Self::SaveAs => file.map(Path::to_owned),
             Self::ExportPng => with("png"),
             Self::ExportSvg => with("svg"),
+            Self::ExportPdf => with("pdf"),
             Self::SaveProject => {
                 let stem = file.map(|file| file.with_extension("").with_extension(""));
                 let stem = stem.unwrap_or_else(|| PathBuf::from("project"));
@@ -82,6 +86,7 @@ impl PromptKind {
             Self::SaveAs => services.layout_formats(),
             Self::ExportPng => vec![format("PNG", &["png"])],
             Self::ExportSvg => vec![format("SVG", &["svg"])],
+            Self::ExportPdf => vec![format("PDF", &["pdf"])],
             Self::SaveProject => {
                 vec![format(
                     "Guideway project",
@@ -103,7 +108,13 @@ impl PromptKind {
             Self::Open => Action::Open(path),
             Self::SaveAs => Action::SaveAs(path),
             Self::ExportPng => Action::Export(Export::Png { path, width_px }),
-            Self::ExportSvg => Action::Export(Export::Svg { path }),
+            Self::ExportSvg | Self::ExportPdf => Action::Export(Export::Vector {
+                path,
+                format: match self {
+                    Self::ExportPdf => VectorFormat::Pdf,
+                    _ => VectorFormat::Svg,
+                },
+            }),
             Self::SaveProject => Action::SaveProject(path),
             Self::FloorPlan => return None,
         })

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use guideway_compose::FloorPlan;
+use guideway_compose::{FloorPlan, VectorFormat};
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::Layout;
 use guideway_scene::{Frame, Method, View};
@@ -142,8 +142,13 @@ impl AppServices for FileStore {
         self.disk.render(export, method)
     }
 
-    fn export_svg(&self, export: &PictureRequest, path: &Path) -> Result<(), UserError> {
-        self.disk.export_svg(export, path)
+    fn export_vector(
+        &self,
+        export: &PictureRequest,
+        format: VectorFormat,
+        path: &Path,
+    ) -> Result<(), UserError> {
+        self.disk.export_vector(export, format, path)
     }
 
     fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {

@@ -7,7 +7,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use etcetera::BaseStrategy;
-use guideway::compose::{Backdrop, FloorPlan, Picture, SweptAreas, Viewport, draw_swept_areas};
+use guideway::compose::{
+    Backdrop, FloorPlan, Picture, SweptAreas, VectorFormat, Viewport, draw_swept_areas,
+};
 use guideway::envelope::EnvelopeSource;
 use guideway::formats::{Progress, Target, read_file};
 use guideway::layout::{Layout, UserError, shown_path};
@@ -129,8 +131,13 @@ impl AppServices for CliServices {
         Ok(())
     }
 
-    fn export_svg(&self, request: &PictureRequest, path: &Path) -> Result<(), UserError> {
-        picture(request).save_svg(path)?;
+    fn export_vector(
+        &self,
+        request: &PictureRequest,
+        format: VectorFormat,
+        path: &Path,
+    ) -> Result<(), UserError> {
+        picture(request).save_vector(format, path)?;
         Ok(())
     }
 
