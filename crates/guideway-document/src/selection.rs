@@ -102,8 +102,8 @@ impl Document {
         self.set_visibility(others.into_iter(), PathState::Hidden);
     }
 
-    /// Shows only what is on a level or on none, and draws there; `None` shows all levels. Shows the
-    /// hidden paths of the level too.
+    /// Shows only what is on a level or on none, and draws there; `None` shows all levels. Shows
+    /// the hidden paths of the level too.
     pub fn show_level(&mut self, level: Option<u32>) {
         self.level = level;
         let all = 0..self.layout().levels.len() as u32;

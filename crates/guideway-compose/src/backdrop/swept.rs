@@ -28,8 +28,8 @@ const COLOR: Rgba = Rgba {
 /// Most that a polygon may exceed its area by, in pixels: less than anyone sees.
 const TOLERANCE_PX: f64 = 0.25;
 
-/// Most polygons of a picture. A site of 326 paths has 24,000, a vehicle that turns on the spot along
-/// thousands of paths any number.
+/// Most polygons of a picture. A site of 326 paths has 24,000; a vehicle that turns on the spot
+/// along thousands of paths has any number.
 const MOST_POLYGONS: u64 = 400_000;
 
 /// Bytes per corner while outlines are united. Derived: edges, their parts and events, on several
@@ -100,8 +100,9 @@ pub(super) fn draw(areas: &Areas, strip: &Strip, frame: &mut Frame) {
 }
 
 impl VisibleAreas {
-    /// Sweeps the vehicle along paths and unites the polygons of each near the view. Where they take
-    /// more than the budget, they are coarser: a vehicle that turns on the spot sweeps very many.
+    /// Sweeps the vehicle along paths and unites the polygons of each near the view. Where they
+    /// take more than the budget, they are coarser: a vehicle that turns on the spot sweeps very
+    /// many.
     ///
     /// # Errors
     /// When none of the paths has a swept area, or the coarsest polygons exceed the budget.
@@ -235,8 +236,8 @@ impl Cost {
         }
     }
 
-    /// Adds a polygon of a path of which so many corners were united at once. Returns `false` if
-    /// all together costs too much.
+    /// Adds a polygon of a path, of which this number of corners was united at once. Returns
+    /// `false` if all together costs too much.
     fn add_polygon(&self, most_corners: usize) -> bool {
         let union = UNION_BYTES * most_corners as u64;
         self.union_bytes.fetch_max(union, Ordering::Relaxed);

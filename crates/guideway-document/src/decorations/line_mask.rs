@@ -13,8 +13,8 @@ const MAX_CELLS: f64 = 2_000.0;
 /// Most samples of a curve segment.
 const MAX_SAMPLES: f64 = 4_096.0;
 
-/// The cells of a picture that lines cross, one bit per cell: some kilobytes, which a view of labels
-/// reads a few words of each row for.
+/// The cells of a picture that lines cross, one bit per cell. A box takes a few words of each of
+/// its rows.
 pub(super) struct LineMask {
     cell_px: f64,
     columns: usize,

@@ -1,8 +1,8 @@
 //! Parses transforms: the attribute `transform`, the CSS properties `transform`, `translate`,
 //! `rotate`, `scale` and `transform-origin` in, an affine map out.
 //!
-//! Sources: CSS Transforms 1, sections 7 and 13; CSS Transforms 2, section 5; SVG 2, section 8.5. Percentages refer to the sizes
-//! of the viewport.
+//! Sources: CSS Transforms 1, sections 7 and 13; CSS Transforms 2, section 5; SVG 2, section 8.5.
+//! Percentages refer to the sizes of the viewport.
 
 use std::str::FromStr;
 

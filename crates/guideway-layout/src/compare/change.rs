@@ -1,6 +1,6 @@
-//! [`Change`]: a change of one element from one layout to another, and [`ElementChanges`], a list of
-//! them. They refer to the rows of both layouts, so that ten million take few bytes: values become
-//! text as they are written.
+//! [`Change`]: a change of one element from one layout to another, and [`ElementChanges`], a list
+//! of them. They refer to the rows of both layouts, so that ten million take few bytes: values
+//! become text as they are written.
 
 use super::difference::Difference;
 use crate::{ElementKind, Layout};

@@ -193,7 +193,7 @@ fn new_layout_survives_a_crash() {
     window.key(Modifiers::NONE, Key::Enter);
     window.harness.run_steps(3);
     assert!(window.app().dialogs.notices.texts().is_empty());
-    // What the crash leaves: the window cannot delete it any more.
+    // The crash leaves a draft, which the window cannot delete any more.
     fs::rename(&states[0], &states[1]).unwrap();
     drop(window);
     *disk.state.lock().unwrap() = Some(states[1].clone());

@@ -171,8 +171,8 @@ fn clipped(inserts: &str, boundary: &str) -> Layout {
         "",
         block,
         &format!(
-            "{inserts}0 ENDSEC\n0 SECTION\n2 OBJECTS\n0 DICTIONARY\n5 D1\n330 B1\n0 DICTIONARY\n5 D2\n\
-             330 D1\n0 SPATIAL_FILTER\n5 F1\n330 D2\n{boundary}71 1\n72 0\n73 0\n{}{}",
+            "{inserts}0 ENDSEC\n0 SECTION\n2 OBJECTS\n0 DICTIONARY\n5 D1\n330 B1\n0 DICTIONARY\n\
+             5 D2\n330 D1\n0 SPATIAL_FILTER\n5 F1\n330 D2\n{boundary}71 1\n72 0\n73 0\n{}{}",
             rows(-5.0),
             rows(0.0)
         ),
