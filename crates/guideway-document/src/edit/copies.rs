@@ -113,7 +113,7 @@ impl<'a> Copies<'a> {
                     return None;
                 };
                 let between = path.id().strip_prefix(from)?.strip_suffix(to)?;
-                Some(format!("{start}{between}{end}"))
+                (!between.is_empty()).then(|| format!("{start}{between}{end}"))
             };
             let id = match by_ends() {
                 Some(id) => path_names.unique(&id),

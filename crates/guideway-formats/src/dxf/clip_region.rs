@@ -269,7 +269,8 @@ mod tests {
         assert_ends(&cut(&inner, arch.clone()), &[[(1.0, 2.25), (3.0, 2.25)]]);
         let apart = ClipRegion::new(square(20.0, 30.0), Some(&inner)).unwrap();
         assert_ends(&cut(&apart, arch.clone()), &[]);
-        let again = ClipRegion::new(square(-9.0, 2.5), Some(&inner)).unwrap();
+        let below = polygon(&[(-9.0, -9.0), (9.0, -9.0), (9.0, 2.5), (-9.0, 2.5)]);
+        let again = ClipRegion::new(below, Some(&inner)).unwrap();
         let pieces = cut(&again, arch.clone());
         assert_eq!(pieces.len(), 2, "{pieces:?}");
         assert!((pieces[0].1.y - 2.5).abs() < 1e-9 && again.shows(Point::new(2.0, 2.4)));

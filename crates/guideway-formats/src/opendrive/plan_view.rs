@@ -38,7 +38,7 @@ pub(super) fn read_geometry<'d, 't>(
         return None;
     }
     if heading.abs() > LARGEST_HEADING {
-        let message = || format!("its heading is {heading} rad");
+        let message = || format!("its heading is {heading:?} rad");
         let remedy = "Check whether the angles are in degrees";
         reader.report(Code::Implausible, node, message, remedy);
     }
