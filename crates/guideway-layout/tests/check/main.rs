@@ -13,17 +13,21 @@ use guideway_layout::Code;
 /// The page that explains every code.
 const PAGE: &str = include_str!("../../../../docs/diagnostics.md");
 
-/// Heading and text of each entry.
-fn entries() -> Vec<(&'static str, &'static str)> {
-    let sections = PAGE.split("\n### ").skip(1);
-    sections
-        .map(|s| s.split_once('\n').expect("a heading ends with its line"))
+/// Code with severity, and text, of each entry: "**`CODE`** (SEVERITY): TEXT".
+fn entries() -> Vec<(String, &'static str)> {
+    let entries = PAGE.split("\n**").skip(1);
+    entries
+        .map(|entry| {
+            let (code, entry) = entry.split_once("** ").expect("the code is bold");
+            let (severity, text) = entry.split_once(": ").expect("the severity follows");
+            (format!("{code} {severity}"), text)
+        })
         .collect()
 }
 
 #[test]
 fn entries_match_the_codes_in_order() {
-    let headings: Vec<_> = entries().iter().map(|(heading, _)| *heading).collect();
+    let headings: Vec<_> = entries().into_iter().map(|(heading, _)| heading).collect();
     let expected: Vec<_> = Code::ALL
         .iter()
         .map(|code| format!("`{code}` ({})", code.severity()))
