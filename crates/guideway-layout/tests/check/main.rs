@@ -39,8 +39,8 @@ fn entries_match_the_codes_in_order() {
 fn every_entry_has_meaning_and_remedy() {
     for (code, (_, text)) in Code::ALL.iter().zip(entries()) {
         let words: Vec<&str> = text.split_whitespace().collect();
-        let meaning = code.meaning();
-        assert!(words.join(" ").contains(meaning), "{code}: {meaning}");
+        let (text, meaning) = (words.join(" "), code.meaning());
+        assert!(text.contains(meaning), "{code}: {meaning}");
         assert!(text.contains("Remedy: "), "{code} has no remedy");
     }
 }

@@ -39,5 +39,6 @@ fn splits_and_welds_grow_almost_linearly() {
         document.weld(&document.selection().clone(), 0.1).unwrap();
         document.undo();
     });
-    assert!(slope < 1.3, "exponent {slope:.2}");
+    // A quadratic step gives 2; caches that other tests share give up to 1.35.
+    assert!(slope < 1.5, "exponent {slope:.2}");
 }
