@@ -185,7 +185,7 @@ mod tests {
         };
         draft.set_rule(rule.clone());
         draft.set_rule(rule.clone());
-        assert_eq!(draft.options.layers, [rule.clone()]);
+        assert_eq!(draft.options.layers, std::slice::from_ref(&rule));
         let rule = LayerRule {
             leave: false,
             ..rule

@@ -181,7 +181,8 @@ fn set_speed(window: &mut TestWindow, speed: &str) {
     let fields = By::new().role(Role::TextInput);
     let fields = window.harness.get_all(fields);
     let beside = fields.filter(|field| field.rect().y_range().contains(row.center().y));
-    beside.last().expect("the field is beside its name").focus();
+    let field = beside.collect::<Vec<_>>().pop();
+    field.expect("the field is beside its name").focus();
     window.harness.run_steps(2);
     window.harness.event(Event::Text(speed.into()));
     window.harness.run_steps(2);
