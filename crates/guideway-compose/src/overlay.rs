@@ -10,14 +10,14 @@ use crate::blend::over;
 use crate::text::ShapedLine;
 
 /// A draw list, prepared for all strips of a view.
-pub(crate) struct PreparedOverlay<'l> {
+pub(crate) struct PreparedOverlay {
     fills: Vec<(Rgba, Areas)>,
-    texts: Vec<(&'l TextLine, ShapedLine)>,
+    texts: Vec<(TextLine, ShapedLine)>,
 }
 
-impl<'l> PreparedOverlay<'l> {
+impl PreparedOverlay {
     /// Shapes all texts and converts polygons to the coordinates of the rasterizer.
-    pub(crate) fn new(list: &'l DrawList, view: &View) -> Self {
+    pub(crate) fn new(list: &DrawList, view: &View) -> Self {
         let fills = list.fills.iter().map(|fill| {
             let mut areas = Areas::default();
             for polygon in &fill.polygons {
@@ -30,7 +30,7 @@ impl<'l> PreparedOverlay<'l> {
         Self {
             fills: fills.collect(),
             texts: texts
-                .map(|text| (text, ShapedLine::new(&text.text)))
+                .map(|text| (text.clone(), ShapedLine::new(&text.text)))
                 .collect(),
         }
     }

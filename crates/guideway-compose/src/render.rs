@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use guideway_formats::Progress;
 use guideway_scene::{
-    Cancel, DrawList, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Rgba, Shading,
-    Style, View, elapsed_ms,
+    Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Rgba, Shading, Style, View,
+    elapsed_ms,
 };
 
 use crate::backdrop::SweptReport;
@@ -75,7 +75,7 @@ impl Picture {
         let margin: Vec<_> = margin
             .map(|(list, _)| PreparedOverlay::new(list, &view))
             .collect();
-        let mut density = DrawList::default();
+        let mut density = None::<PreparedOverlay>;
         let mut report = None::<Report>;
         let (mut render_ms, mut write_ms, mut bare_pixels) = (0.0, 0.0, 0);
         let size = FrameSize::new(1, 1)?;
@@ -94,17 +94,16 @@ impl Picture {
                 marks.draw(&strip, &mut frame);
             }
             bare_pixels += count_bare(&frame, background);
-            for list in &margin {
-                list.draw(&strip, &mut frame);
-            }
             if let (Some(corner), Some(colors)) = (decorations.density_corner, &of_strip.density)
-                && density.is_empty()
+                && density.is_none()
             {
                 let place = (&self.decorations, view.size());
                 let list = density_legend(colors, corner, place, &self.decoration_style());
-                density = list.unwrap_or_default();
+                density = list.map(|list| PreparedOverlay::new(&list, &view));
             }
-            PreparedOverlay::new(&density, &view).draw(&strip, &mut frame);
+            for list in margin.iter().chain(&density) {
+                list.draw(&strip, &mut frame);
+            }
             match &mut report {
                 Some(report) => report.join(of_strip),
                 none => *none = Some(of_strip),
@@ -115,7 +114,6 @@ impl Picture {
             write_ms += elapsed_ms(started);
             progress.advance(strip.rows().end.into(), view.size().height().into());
         }
-        drop(backdrop);
         let mut report = report.unwrap_or_default();
         report
             .notes
@@ -209,13 +207,18 @@ impl Picture {
             drawn += report.drawn;
             bare_pixels += count_bare(&frame, style.background);
         }
-        Ok(drawn >= MANY_PATHS && bare_pixels * 2 < view.size().pixels())
+        Ok(is_crowd(drawn, bare_pixels, &view))
     }
+}
+
+/// Returns `true` if many paths cover more than half of a picture.
+fn is_crowd(drawn: u64, bare_pixels: usize, view: &View) -> bool {
+    drawn >= MANY_PATHS && bare_pixels * 2 < view.size().pixels()
 }
 
 /// Suggests density shading where many paths cover most of the picture.
 fn density_hint(report: &Report, bare_pixels: usize, view: &View, style: &Style) -> Option<String> {
-    let is_crowded = report.drawn >= MANY_PATHS && bare_pixels * 2 < view.size().pixels();
+    let is_crowded = is_crowd(report.drawn, bare_pixels, view);
     let note = "paths cover most of the picture; `--shade density` shows how many overlap";
     (is_crowded && style.shading == Shading::Color).then(|| note.to_owned())
 }

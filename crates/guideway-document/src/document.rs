@@ -101,9 +101,7 @@ impl Document {
     /// # Panics
     /// When the station is unknown.
     pub fn station_position_m(&self, station: u32) -> Option<Point<f64>> {
-        let stations = &self.layout().stations;
-        let at_node = || Some(self.node_position_m(*stations.nodes(station).first()?));
-        stations.position_m(station).or_else(at_node)
+        self.layout().station_position_m(station)
     }
 
     /// Sets the observer of scene edits. It is called in order, once per edit, after the edit is

@@ -53,11 +53,7 @@ impl EnvelopeSource {
 /// The corridor of a path, as a body of length 0.
 fn corridor(layout: &Layout, path: usize) -> Result<Body, NoEnvelope> {
     let value = |name: &str| layout.paths.value(path, name);
-    let width_m = |name: &str| match value(name)? {
-        Value::Float(width_m) => Some(width_m),
-        Value::Int(width_m) => Some(width_m as f64),
-        _ => None,
-    };
+    let width_m = |name: &str| value(name)?.number();
     let is_width = |width_m: &f64| width_m.is_finite() && *width_m >= 0.0;
     let [left, right] = CORRIDOR.map(|name| width_m(name).filter(is_width));
     let (left_m, right_m) = left.zip(right).ok_or(NoEnvelope::NotInFile)?;

@@ -280,12 +280,7 @@ impl<'a> Builder<'a> {
         value: Value<'_>,
     ) -> Result<(), ReadError> {
         let quantity = field.property().and_then(Property::quantity);
-        let number = match value {
-            Value::Int(number) => Some(number as f64),
-            Value::Float(number) => Some(number),
-            Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
-        };
-        match (quantity, number) {
+        match (quantity, value.number()) {
             (Some(quantity), Some(number)) => {
                 let number = field.to_si(number);
                 let attributes = self.attributes(table);

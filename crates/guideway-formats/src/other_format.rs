@@ -5,6 +5,7 @@ use guideway_layout::Place;
 
 use crate::Problem;
 use crate::sniff::{format_of_key, root_keys, root_tag};
+use crate::text::without_mark;
 
 const UNPACK: &str = "Unpack it first; of packed files, only those of gzip are read";
 const CONVERT: &str = "Convert it with GDAL: `ogr2ogr -f GeoJSON FILE.geojson FILE`";
@@ -65,8 +66,7 @@ const ROOTS: &[(&[u8], &str, &str)] = &[
 
 /// Returns the problem of a file of another format that is known.
 pub(crate) fn other_format(bytes: &[u8]) -> Option<Problem> {
-    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let text = text.trim_ascii_start();
+    let text = without_mark(bytes).trim_ascii_start();
     let problem = |what: &str, remedy: &str| Problem::Unsupported {
         place: Place::element("the file"),
         what: what.to_owned(),
@@ -91,9 +91,9 @@ pub(crate) fn other_format(bytes: &[u8]) -> Option<Problem> {
     }
     let known = match text.first()? {
         b'<' => {
-            let root = root_tag(text).to_ascii_lowercase();
+            let root = root_tag(text);
             let mut roots = ROOTS.iter();
-            roots.find(|(name, ..)| name.eq_ignore_ascii_case(&root))
+            roots.find(|(name, ..)| name.eq_ignore_ascii_case(root))
         }
         b'{' => return json_problem(text, problem),
         _ => FIRST_BYTES

@@ -1,7 +1,7 @@
 //! Format detection: finds the format of a file from its first bytes, regardless of its name.
 
 use crate::Format;
-use crate::text::BYTE_ORDER_MARK;
+use crate::text::without_mark;
 use crate::xml::Prolog;
 
 /// Returns the format that bytes begin to be, or `None` if they match no format.
@@ -26,31 +26,33 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
     if crate::dxf::is_dxf(bytes) {
         return Some(Format::Dxf);
     }
-    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let text = without_mark(bytes);
     match text.trim_ascii_start().first()? {
         b'{' => Some(
             root_keys(text)
                 .find_map(format_of_key)
                 .unwrap_or(Format::Lif),
         ),
-        _ if first_of_several(text).is_some() => {
-            let format = root_keys(first_of_several(text)?).find_map(format_of_key);
-            format.filter(|format| matches!(format, Format::GeoJson | Format::Vda5050))
-        }
         b'<' => Some(match root_tag(text) {
             b"svg" => Format::Svg,
             b"OpenDRIVE" => Format::OpenDrive,
             b"osm" => Format::Lanelet2,
             _ => Format::OpenTcs,
         }),
-        _ => crate::rmf::is_rmf(text).then_some(Format::Rmf),
+        _ => match first_of_several(text) {
+            Some(object) => {
+                let format = root_keys(object).find_map(format_of_key);
+                format.filter(|format| matches!(format, Format::GeoJson | Format::Vda5050))
+            }
+            None => crate::rmf::is_rmf(text).then_some(Format::Rmf),
+        },
     }
 }
 
 /// Returns `true` if the first key of a root object that one format uses is one of LIF.
 #[cfg(unix)]
 pub(crate) fn has_lif_key(bytes: &[u8]) -> bool {
-    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let text = without_mark(bytes);
     text.trim_ascii_start().starts_with(b"{")
         && root_keys(text).find_map(format_of_key) == Some(Format::Lif)
 }

@@ -8,6 +8,11 @@ use crate::{Problem, ReadError, source::Source};
 /// The byte order mark of UTF-8.
 pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
+/// The bytes of a text without a byte order mark.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
+}
+
 /// Decodes the bytes of a file as UTF-8, without a byte order mark.
 pub(crate) fn decode_utf8<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<&'b str, ReadError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_spline::Affine;
+use guideway_spline::{Affine, Point};
 
 use crate::{
     Attributes, Block, Diagnostics, GeoOrigin, Level, Nodes, Note, PathRef, Paths, Refused,
@@ -61,6 +61,16 @@ impl Layout {
         found.map(|i| i as u32)
     }
 
+    /// Position of a station, in meters: its own, or that of its first node. `None` without either.
+    ///
+    /// # Panics
+    /// When the station is unknown.
+    pub fn station_position_m(&self, station: u32) -> Option<Point<f64>> {
+        let node = self.stations.nodes(station).first();
+        let at_node = || node.map(|&node| self.nodes.position_m(node));
+        self.stations.position_m(station).or_else(at_node)
+    }
+
     /// Keeps the paths of the given rows, in this order, and removes all others.
     ///
     /// # Panics
@@ -108,8 +118,7 @@ impl Layout {
 
     /// Returns `true` if the layout is a drawing that is no network yet: lines without a direction.
     pub fn is_drawing(&self) -> bool {
-        let mut formats = self.provenance.format.split(" + ");
-        self.nodes.is_empty() && formats.all(|format| DRAWING_FORMATS.contains(&format))
+        self.nodes.is_empty() && self.provenance.is_all_of(&DRAWING_FORMATS)
     }
 
     /// Heap bytes in use, approximately: it omits levels, diagnostics and provenance.
@@ -166,4 +175,12 @@ pub struct Provenance {
     pub counts: Vec<(String, u64)>,
     /// Text of the file, for formats whose writer copies what did not change.
     pub text: Option<Arc<str>>,
+}
+
+impl Provenance {
+    /// Returns `true` if all formats of the files are among these.
+    pub(crate) fn is_all_of(&self, formats: &[&str]) -> bool {
+        let mut own = self.format.split(" + ");
+        own.all(|format| formats.contains(&format))
+    }
 }

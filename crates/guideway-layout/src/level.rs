@@ -14,3 +14,10 @@ pub struct Level {
     /// Further properties, in one row.
     pub attributes: Attributes,
 }
+
+impl Level {
+    /// Its name, or its identifier where it has none.
+    pub fn name_or_id(&self) -> &str {
+        self.name.as_deref().unwrap_or(&self.id)
+    }
+}

@@ -1,7 +1,5 @@
 //! Formats counts, lengths and names for people: in legends, scale bars and reports.
 
-use std::time::Duration;
-
 use crate::is_hidden;
 
 /// A count with thousands separators: `1,020,350`.
@@ -21,17 +19,6 @@ pub fn count(n: u64) -> String {
 pub fn counted(n: u64, thing: &str) -> String {
     let end = if n == 1 { "" } else { "s" };
     format!("{} {thing}{end}", count(n))
-}
-
-/// A duration in its largest whole unit: `40 seconds`, `3 hours`.
-pub fn duration(duration: Duration) -> String {
-    let seconds = duration.as_secs();
-    match seconds {
-        0..60 => counted(seconds, "second"),
-        60..3_600 => counted(seconds / 60, "minute"),
-        3_600..86_400 => counted(seconds / 3_600, "hour"),
-        _ => counted(seconds / 86_400, "day"),
-    }
 }
 
 /// A name from a file on one line: replaces characters that steer a terminal or reverse text, and
@@ -64,13 +51,6 @@ mod tests {
     fn groups_thousands() {
         assert_eq!(count(999), "999");
         assert_eq!(count(1_020_350), "1,020,350");
-    }
-
-    #[test]
-    fn durations_have_their_largest_unit() {
-        let texts = [1, 59, 61, 7_200, 200_000].map(|s| duration(Duration::from_secs(s)));
-        let expected = ["1 second", "59 seconds", "1 minute", "2 hours", "2 days"];
-        assert_eq!(texts, expected);
     }
 
     #[test]

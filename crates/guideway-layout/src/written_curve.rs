@@ -23,8 +23,10 @@ impl WrittenCurve {
     #[must_use]
     pub fn mapped(&self, by: Affine) -> Self {
         Self {
+            degree: self.degree,
+            knots: self.knots.clone(),
             points_m: self.points_m.iter().map(|p| by.apply(*p)).collect(),
-            ..self.clone()
+            weights: self.weights.clone(),
         }
     }
 
@@ -87,7 +89,8 @@ impl WrittenCurves {
 
     pub(crate) fn transform(&mut self, path: usize, by: Affine) {
         if let Some(curve) = self.0.get_mut(&(path as u32)) {
-            *curve = Arc::new(curve.mapped(by));
+            let points_m = &mut Arc::make_mut(curve).points_m;
+            points_m.iter_mut().for_each(|p| *p = by.apply(*p));
         }
     }
 

@@ -156,9 +156,5 @@ pub(crate) fn number(
     vehicle_type: Option<&str>,
     name: &str,
 ) -> Option<f64> {
-    match value(layout, path, vehicle_type, name)? {
-        Value::Float(number) => Some(number),
-        Value::Int(number) => Some(number as f64),
-        _ => None,
-    }
+    value(layout, path, vehicle_type, name)?.number()
 }

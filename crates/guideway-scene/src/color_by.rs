@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-use guideway_layout::{Direction, Layout, Quantity, Value, Values};
+use guideway_layout::{Direction, Layout, Quantity, Values};
 
 use crate::color::Rgba;
 use crate::ramp::{NumberColors, Ramp, ticks};
@@ -115,10 +115,9 @@ fn numbers<'a>(layout: &'a Layout, column: &str) -> Option<Numbers<'a>> {
     let paths = &layout.paths;
     let column = paths.column(column)?;
     let is_number = matches!(column.values, Values::Int(_) | Values::Float(_));
-    let number = |path: u32| match paths.value(path as usize, &column.name)? {
-        Value::Int(value) => Some(value as f64),
-        Value::Float(value) => value.is_finite().then_some(value),
-        Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
+    let number = |path: u32| {
+        let number = paths.value(path as usize, &column.name)?.number();
+        number.filter(|number| number.is_finite())
     };
     is_number.then(|| Box::new(number) as Numbers<'_>)
 }
@@ -135,7 +134,7 @@ fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, UnknownCol
     match column {
         "level" => Ok(Box::new(|path| {
             let level = &layout.levels[paths.get(path as usize).level()? as usize];
-            Some(level.name.clone().unwrap_or_else(|| level.id.clone()))
+            Some(level.name_or_id().to_owned())
         })),
         "direction" => Ok(Box::new(|path| {
             let both = paths.get(path as usize).direction() == Direction::Both;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::color::Rgba;
 use crate::color_by::{Legend, LegendEntry, LegendScale};
 use crate::frame::Frame;
+use crate::ramp::{COLORS, between};
 
 /// Pixels per parallel task: large enough that scheduling costs nothing against the work.
 const CHUNK: usize = 1 << 16;
@@ -26,8 +27,6 @@ pub enum ToneMap {
     Equalized,
 }
 
-/// Colors of a legend. Derived: neighbors differ by less than an eye can tell.
-const LEGEND_COLORS: usize = 65;
 /// Least distance of the numbers of a legend, as a share of its scale: a line of text.
 const LEAST_GAP: f64 = 0.12;
 
@@ -108,9 +107,7 @@ impl ToneScale {
             }
         });
     }
-}
 
-impl ToneScale {
     /// Places of counts on the ramp, 0 to 1.
     fn along(&self) -> impl Fn(f32) -> f64 {
         let max_count = f64::from(self.max_count);
@@ -150,8 +147,8 @@ impl ToneScale {
         }
         ticks.reverse();
         let (at, entries) = ticks.into_iter().unzip();
-        let color = |i: usize| ramp_color(first + span * i as f64 / (LEGEND_COLORS - 1) as f64);
-        let colors = (0..LEGEND_COLORS).map(color).collect();
+        let color = |i: usize| ramp_color(first + span * i as f64 / (COLORS - 1) as f64);
+        let colors = (0..COLORS).map(color).collect();
         Legend {
             column: "paths per pixel".to_owned(),
             unit: None,
@@ -170,9 +167,7 @@ fn round_counts(up_to: f32) -> impl DoubleEndedIterator<Item = f32> {
 
 /// The color at a place on the ramp, 0 to 1.
 fn ramp_color(along: f64) -> Rgba {
-    let along = along * (STEPS.len() - 1) as f64;
-    let below = (along as usize).min(STEPS.len() - 2);
-    STEPS[below].lerp(STEPS[below + 1], along - below as f64)
+    between(STEPS.len(), |i| STEPS[i], along)
 }
 
 /// Lookup table from counts to pixels. Neighboring entries differ by about 1/1000 of 1 + count, so

@@ -78,6 +78,16 @@ impl DrawList {
         self.fill_polygon(color, &[a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)]);
     }
 
+    /// Adds a straight line with flat ends; nothing if it has no length.
+    pub fn stroke_segment(&mut self, color: Rgba, [a, b]: [Point<f64>; 2], radius: f64) {
+        let along = b - a;
+        let length = along.norm();
+        if length > 0.0 {
+            let side = Point::new(-along.y, along.x) * (radius / length);
+            self.fill_polygon(color, &[a + side, b + side, b - side, a - side]);
+        }
+    }
+
     /// Adds all fills and texts of `other` above these.
     pub fn append(&mut self, other: Self) {
         self.fills.extend(other.fills);
@@ -118,6 +128,16 @@ mod tests {
         let counts: Vec<_> = fills.map(|f| (f.color, f.polygons.len())).collect();
         let (black, white) = (Rgba::BLACK, Rgba::WHITE);
         assert_eq!(counts, [(black, 2), (white, 1), (black, 1)]);
+    }
+
+    #[test]
+    fn segments_are_as_wide_as_twice_their_radius() {
+        let mut list = DrawList::default();
+        list.stroke_segment(Rgba::BLACK, [p(1.0, 1.0); 2], 0.5);
+        assert!(list.is_empty());
+        list.stroke_segment(Rgba::BLACK, [p(1.0, 1.0), p(1.0, 5.0)], 0.5);
+        let corners = [p(0.5, 1.0), p(0.5, 5.0), p(1.5, 5.0), p(1.5, 1.0)];
+        assert_eq!(list.fills[0].polygons, [corners]);
     }
 
     #[test]

@@ -46,7 +46,7 @@ pub use edit::{Edit, EditError, Insertion, NewNode, NewStation, TableEdit};
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, Prepared};
-pub use ramp::{NumberColors, Palette};
+pub use ramp::{NumberColors, Palette, round_step};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
 pub use scene::{LayoutCopy, NoOpaqueColor, PathState, Scene, SceneError, SceneOptions};
 pub use strip::Strip;

@@ -6,7 +6,7 @@ use crate::color::Rgba;
 /// Least contrast of a line with what is around it (WCAG 2.2, criterion 1.4.11).
 const CONTRAST: f64 = 3.0;
 /// Colors of a ramp. Derived: neighbors differ by less than an eye can tell.
-const COLORS: usize = 65;
+pub(crate) const COLORS: usize = 65;
 /// Least share of a palette that a ramp shows: on a background of medium gray, nothing has the
 /// contrast.
 const LEAST_SHARE: f64 = 0.25;
@@ -74,9 +74,7 @@ impl Palette {
     fn at(self, share: f64) -> Rgba {
         let steps = self.steps();
         let color = |step: usize| Rgba::from_u32(steps[step] << 8 | 0xff);
-        let along = share.clamp(0.0, 1.0) * (steps.len() - 1) as f64;
-        let below = (along as usize).min(steps.len() - 2);
-        color(below).lerp(color(below + 1), along - below as f64)
+        between(steps.len(), color, share)
     }
 }
 
@@ -100,6 +98,13 @@ impl Default for NumberColors {
             background: Rgba::WHITE,
         }
     }
+}
+
+/// The color at a share, 0 to 1, of `count` colors that are evenly spaced; beyond that of the end.
+pub(crate) fn between(count: usize, color: impl Fn(usize) -> Rgba, share: f64) -> Rgba {
+    let along = share.clamp(0.0, 1.0) * (count - 1) as f64;
+    let below = (along as usize).min(count - 2);
+    color(below).lerp(color(below + 1), along - below as f64)
 }
 
 /// Colors evenly along a scale, lowest number first.
@@ -145,9 +150,7 @@ impl Ramp {
 
     /// The color at a share of the range of numbers; beyond 0 to 1 that of the end.
     pub(crate) fn at(&self, share: f64) -> Rgba {
-        let along = share.clamp(0.0, 1.0) * (COLORS - 1) as f64;
-        let below = (along as usize).min(COLORS - 2);
-        self.0[below].lerp(self.0[below + 1], along - below as f64)
+        between(COLORS, |i| self.0[i], share)
     }
 
     /// The colors, evenly along the scale.
@@ -157,7 +160,7 @@ impl Ramp {
 }
 
 /// Contrast of two opaque colors, 1 to 21 (WCAG 2.2).
-pub(crate) fn contrast(a: Rgba, b: Rgba) -> f64 {
+fn contrast(a: Rgba, b: Rgba) -> f64 {
     let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
     (a / b).max(b / a)
 }
@@ -177,13 +180,8 @@ pub(crate) fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     if !(span > 0.0 && span.is_finite()) {
         return vec![(low, plain(low, 6))];
     }
-    let raw = span / MOST_TICKS;
-    let power = raw.log10().floor();
-    let magnitude = 10f64.powf(power);
-    let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * magnitude);
-    // The tolerance keeps a tick at an end that rounding moved past it.
-    let step = step.into_iter().find(|step| *step >= raw * (1.0 - 1e-9));
-    let step = step.unwrap_or(10.0 * magnitude);
+    // The tolerance keeps a step that rounding made too small.
+    let step = round_step(span / MOST_TICKS * (1.0 - 1e-9));
     let decimals = if step >= 1.0 {
         0
     } else {
@@ -195,6 +193,17 @@ pub(crate) fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     numbers
         .map(|number| (number, plain(number, decimals)))
         .collect()
+}
+
+/// The smallest of 1, 2 and 5 times a power of ten that is not less than `min`, which is positive.
+pub fn round_step(min: f64) -> f64 {
+    let magnitude = 10f64.powf(min.log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * magnitude);
+    // The logarithm may round down so that `min` exceeds even the last step slightly.
+    steps
+        .into_iter()
+        .find(|&step| step >= min)
+        .unwrap_or(20.0 * magnitude)
 }
 
 /// A number with at most this many decimals, without zeros at the end.

@@ -54,6 +54,20 @@ pub fn split(b: &Bezier, t: f64) -> [Bezier; 2] {
     [[b[0], p01, p012, middle], [middle, p123, p23, b[3]]]
 }
 
+/// The part of a cubic between two parameters, `0 <= from < to <= 1`.
+pub fn part(b: &Bezier, from: f64, to: f64) -> Bezier {
+    let rest = match from > 0.0 {
+        true => split(b, from)[1],
+        false => *b,
+    };
+    if to >= 1.0 {
+        return rest;
+    }
+    // The parameter within the rest of the cubic.
+    let t = (to - from) / (1.0 - from);
+    split(&rest, t.clamp(0.0, 1.0))[0]
+}
+
 /// The first derivative at a parameter.
 pub fn derivative(b: &Bezier, t: f64) -> Point<f64> {
     uniform::derivative(&uniform::from_bezier(b), t)

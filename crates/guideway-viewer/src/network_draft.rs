@@ -8,8 +8,8 @@ use guideway_network::{
     BuildOptions, BuildReport, DrawingSources, LayerRule, Network, NoteSource, build,
 };
 
-use crate::background::{BackgroundTask, RepaintHandle};
-use crate::files::OpenFiles;
+use crate::background::{LatestTask, RepaintHandle};
+use crate::files::{Layer, OpenFiles};
 
 /// Ends within this distance become one node, in meters, until the user chooses another one.
 const WELD_M: f64 = 0.05;
@@ -23,8 +23,11 @@ struct DraftKey {
 }
 
 impl DraftKey {
-    fn is_of_drawing(&self, other: &Self) -> bool {
-        (&self.file, self.state) == (&other.file, other.state)
+    /// Returns `true` if the subject is the present drawing, with any options.
+    fn is_present(&self, files: &OpenFiles) -> bool {
+        let active = files.active().filter(|active| active.path() == self.file);
+        let document = active.and_then(Layer::document);
+        document.is_some_and(|document| document.state() == self.state)
     }
 }
 
@@ -37,15 +40,14 @@ pub(crate) struct Drafted {
 }
 
 struct Made {
-    sources: DrawingSources,
+    sources: Arc<DrawingSources>,
     network: Result<Drafted, UserError>,
 }
 
 /// Options and result of the network of the active file.
 pub(crate) struct NetworkDraft {
     pub(crate) options: BuildOptions,
-    result: Option<(DraftKey, Made)>,
-    task: Option<(DraftKey, BackgroundTask<Made>)>,
+    latest: LatestTask<DraftKey, Made>,
 }
 
 impl Default for NetworkDraft {
@@ -58,8 +60,7 @@ impl Default for NetworkDraft {
         };
         Self {
             options,
-            result: None,
-            task: None,
+            latest: LatestTask::default(),
         }
     }
 }
@@ -76,53 +77,45 @@ impl NetworkDraft {
     }
 
     pub(crate) fn is_busy(&self) -> bool {
-        self.task.is_some()
+        self.latest.is_busy()
     }
 
     /// Layers and notes of the active file.
-    pub(crate) fn sources(&self, files: &OpenFiles) -> Option<&DrawingSources> {
+    pub(crate) fn sources(&self, files: &OpenFiles) -> Option<Arc<DrawingSources>> {
         let path = files.active()?.path();
-        let (key, made) = self.result.as_ref()?;
-        (key.file == path).then_some(&made.sources)
+        let (key, made) = self.latest.result()?;
+        (key.file == path).then(|| Arc::clone(&made.sources))
     }
 
     /// The network of the present drawing by the last options, or why there is none; `is_ready`
     /// tells whether the options are those of the panel.
     pub(crate) fn network(&self, files: &OpenFiles) -> Option<Result<&Drafted, &UserError>> {
-        let (key, made) = self.result.as_ref()?;
-        key.is_of_drawing(&self.key(files)?)
-            .then_some(made.network.as_ref())
+        let (key, made) = self.latest.result()?;
+        key.is_present(files).then_some(made.network.as_ref())
     }
 
     /// Returns `true` if [`Self::network`] is by the present options.
     pub(crate) fn is_ready(&self, files: &OpenFiles) -> bool {
-        let done = self.result.as_ref().map(|(key, _)| key);
-        done.is_some() && done == self.key(files).as_ref()
+        let done = self.latest.result();
+        done.is_some_and(|(key, _)| key.options == self.options && key.is_present(files))
     }
 
     /// Builds again after a change; takes a finished result.
     pub(crate) fn update(&mut self, files: &OpenFiles, repaint: &RepaintHandle) {
-        if let Some((key, task)) = self.task.take() {
-            match task.result() {
-                None => self.task = Some((key, task)),
-                Some(Ok(made)) => self.result = Some((key, made)),
-                Some(Err(error)) => {
-                    let sources = DrawingSources::default();
-                    let network = Err(error);
-                    self.result = Some((key, Made { sources, network }));
-                }
-            }
-        }
+        self.latest.take_finished(|error| Made {
+            sources: Arc::default(),
+            network: Err(error),
+        });
         let (Some(key), Some(document)) = (self.key(files), files.document()) else {
             return;
         };
-        if self.task.is_some() || self.is_ready(files) {
+        if !self.latest.is_due(&key) {
             return;
         }
         let (snapshot, options) = (document.snapshot(), self.options.clone());
-        let task = BackgroundTask::start(repaint, move || {
+        self.latest.start(key, repaint, move || {
             let drawing = snapshot.to_layout();
-            let sources = DrawingSources::of(&drawing);
+            let sources = Arc::new(DrawingSources::of(&drawing));
             let network = build(&drawing, &options).map_err(UserError::from);
             let network = network.map(|Network { layout, report }| Drafted {
                 layout: Arc::new(layout),
@@ -131,12 +124,11 @@ impl NetworkDraft {
             });
             Made { sources, network }
         });
-        self.task = Some((key, task));
     }
 
     /// Frees the network; the options stay.
     pub(crate) fn forget(&mut self) {
-        (self.result, self.task) = (None, None);
+        self.latest = LatestTask::default();
     }
 
     /// The rule of a layer; the default one if there is none.
@@ -153,12 +145,8 @@ impl NetworkDraft {
     pub(crate) fn set_rule(&mut self, rule: LayerRule) {
         let rules = &mut self.options.layers;
         rules.retain(|other| other.name != rule.name);
-        let says_nothing = LayerRule {
-            name: rule.name.clone(),
-            ..LayerRule::default()
-        };
-        if rule != says_nothing {
-            rules.push(rule);
+        if rule != self.rule(&rule.name) {
+            self.options.layers.push(rule);
         }
     }
 }

@@ -74,14 +74,14 @@ pub(crate) struct VisibleBackdrop<'b> {
 impl VisibleBackdrop<'_> {
     /// Prepares the layers for rendering; `None` if the backdrop is empty. Grid and zones are drawn
     /// below the lines of the backdrop.
-    pub(crate) fn prepare<'a>(
-        &'a self,
-        [grid, zones]: [&'a DrawList; 2],
+    pub(crate) fn prepare(
+        &self,
+        [grid, zones]: [&DrawList; 2],
         method: &dyn Method,
         budget: &Budget,
         style: &Style,
         view: &View,
-    ) -> Result<Option<PreparedBackdrop<'a>>, ComposeError> {
+    ) -> Result<Option<PreparedBackdrop>, ComposeError> {
         let floor_plan = self.backdrop.floor_plan.as_ref();
         let floor_plan = floor_plan.map(|plan| plan.prepare(budget));
         let lines = [grid, zones, &self.backdrop.lines].into_iter();
@@ -142,10 +142,10 @@ impl VisibleBackdrop<'_> {
 }
 
 /// A backdrop that renders strip by strip.
-pub(crate) struct PreparedBackdrop<'b> {
+pub(crate) struct PreparedBackdrop {
     floor_plan: Option<PreparedFloorPlan>,
     floor_plan_fade: f64,
-    lines: Vec<PreparedOverlay<'b>>,
+    lines: Vec<PreparedOverlay>,
     areas: Option<Areas>,
     others: Vec<Box<dyn Prepared>>,
     /// Style of the other scenes: on a transparent background.
@@ -154,7 +154,7 @@ pub(crate) struct PreparedBackdrop<'b> {
     scratch: Frame,
 }
 
-impl PreparedBackdrop<'_> {
+impl PreparedBackdrop {
     fn is_empty(&self) -> bool {
         self.floor_plan.is_none()
             && self.lines.is_empty()

@@ -128,18 +128,7 @@ impl DrawnRoute {
 /// A polyline of a radius, with round joins and caps.
 fn band(list: &mut DrawList, color: Rgba, line: &[Point<f64>], radius_px: f64) {
     for pair in line.windows(2) {
-        let along = pair[1] - pair[0];
-        let length = along.norm();
-        if length > 0.0 {
-            let side = Point::new(-along.y, along.x) * (radius_px / length);
-            let corners = [
-                pair[0] + side,
-                pair[1] + side,
-                pair[1] - side,
-                pair[0] - side,
-            ];
-            list.fill_polygon(color, &corners);
-        }
+        list.stroke_segment(color, [pair[0], pair[1]], radius_px);
     }
     for &at in line {
         list.fill_polygon(color, &disc(at, radius_px));

@@ -27,17 +27,12 @@ pub(super) fn draw(scene: &Scene, view: &View, style: &DecorationStyle) -> DrawL
     for outline in outlines.iter().filter(|outline| is_convex(outline)) {
         list.fill_polygon(style.ink.with_opacity(TINT_OPACITY), outline);
     }
+    let line_color = style.ink.with_opacity(LINE_OPACITY);
     let half_px = HALF_WIDTH_POINTS * style.px_per_point;
     for outline in &outlines {
         let next = outline.iter().cycle().skip(1);
         for (&from, &to) in outline.iter().zip(next) {
-            let along = to - from;
-            let length = along.norm();
-            if length > 0.0 {
-                let side = Point::new(-along.y, along.x) * (half_px / length);
-                let corners = [from + side, to + side, to - side, from - side];
-                list.fill_polygon(style.ink.with_opacity(LINE_OPACITY), &corners);
-            }
+            list.stroke_segment(line_color, [from, to], half_px);
         }
     }
     list
@@ -49,7 +44,7 @@ fn is_convex(outline: &[Point<f64>]) -> bool {
     let turn = |i: usize| {
         let [a, b, c] = [0, 1, 2].map(|step| outline[(i + step) % count]);
         let (ab, bc) = (b - a, c - b);
-        (ab.x * bc.y - ab.y * bc.x, ab.x * bc.x + ab.y * bc.y)
+        (ab.cross(bc), ab.dot(bc))
     };
     if count < 3 {
         return false;

@@ -26,12 +26,6 @@ pub(super) struct Content {
 
 impl Default for Content {
     fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Content {
-    pub(super) fn new() -> Self {
         Self {
             out: ZlibEncoder::new(Vec::new(), Compression::default()),
             state: String::new(),
@@ -40,7 +34,9 @@ impl Content {
             end: None,
         }
     }
+}
 
+impl Content {
     /// The compressed stream.
     pub(super) fn finish(self) -> io::Result<Vec<u8>> {
         self.out.finish()

@@ -42,7 +42,7 @@ impl PdfPage {
     /// An empty page.
     pub(crate) fn new(size: FrameSize) -> io::Result<Self> {
         let size_px = [size.width(), size.height()].map(f64::from);
-        let mut content = Content::new();
+        let mut content = Content::default();
         // The origin of PDF is the lower left corner, with y up.
         let scale = Self::units_per_px(size_px);
         let flip = [scale, 0.0, 0.0, -scale, 0.0, scale * size_px[1]];
@@ -177,7 +177,7 @@ impl Page for PdfPage {
                 let last = self.open.len() - 1;
                 (std::mem::take(&mut self.open[last].content), None)
             }
-            _ => (Content::new(), Some(alpha)),
+            _ => (Content::default(), Some(alpha)),
         };
         self.open.push(Open { content, opacity });
         Ok(())

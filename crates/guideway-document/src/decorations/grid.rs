@@ -1,7 +1,6 @@
-//! Grid: lines at round world coordinates, drawn below the paths; the round numbers of grids and
-//! scale bars.
+//! Grid: lines at round world coordinates, drawn below the paths.
 
-use guideway_scene::{DrawList, View};
+use guideway_scene::{DrawList, View, round_step};
 use guideway_spline::Point;
 
 use super::style::DecorationStyle;
@@ -70,17 +69,6 @@ fn line_positions(view: &View, step_m: f64) -> [Vec<f64>; 2] {
             .map(|y| pixel(visible.min.x, y).y)
             .collect(),
     ]
-}
-
-/// The smallest of 1, 2 and 5 times a power of ten that is not less than `min`, which is positive.
-pub fn round_step(min: f64) -> f64 {
-    let magnitude = 10f64.powf(min.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * magnitude);
-    // The logarithm may round down so that `min` exceeds even the last step slightly.
-    steps
-        .into_iter()
-        .find(|&step| step >= min)
-        .unwrap_or(20.0 * magnitude)
 }
 
 #[cfg(test)]

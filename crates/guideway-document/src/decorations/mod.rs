@@ -32,7 +32,7 @@ mod place_marks;
 mod scale_bar;
 mod style;
 
-pub use grid::{grid, grid_step_m, round_step};
+pub use grid::{grid, grid_step_m};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use legend::{Corner, legend};

@@ -1,9 +1,8 @@
 //! Scale bar: a bar of round length in the lower left corner, labeled with its length.
 
-use guideway_scene::{DrawList, TextLine, View};
+use guideway_scene::{DrawList, TextLine, View, round_step};
 use guideway_spline::{Bounds, Point};
 
-use super::grid::round_step;
 use super::style::DecorationStyle;
 use crate::text_format;
 

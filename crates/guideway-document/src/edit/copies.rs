@@ -3,10 +3,11 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Layout, WrittenCurve, WrittenCurves};
+use guideway_layout::{Layout, WrittenCurves};
 use guideway_scene::{Edit, EditError, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
-use guideway_spline::{Affine, Point, Runs};
+use guideway_spline::{Affine, Point};
 
+use super::curves::mapped_runs;
 use super::names::Names;
 use super::perform::reshape_as_written;
 use crate::PathSet;
@@ -34,7 +35,7 @@ pub(super) struct Copies<'a> {
     nodes: Vec<NewNode>,
     paths: Vec<Insertion>,
     /// Curves of the new paths as they were written, by their indices.
-    written: Vec<(usize, WrittenCurve)>,
+    written: WrittenCurves,
     stations: Vec<NewStation>,
 }
 
@@ -47,7 +48,7 @@ impl<'a> Copies<'a> {
             first_rows: tables.map(|of| of.row_count(scene.layout()) as u32),
             nodes: Vec::new(),
             paths: Vec::new(),
-            written: Vec::new(),
+            written: WrittenCurves::default(),
             stations: Vec::new(),
         }
     }
@@ -92,13 +93,8 @@ impl<'a> Copies<'a> {
         for row in &elements.paths {
             let (paths, at) = (&layout.paths, row as usize);
             let path = paths.get(at);
-            let mut runs = Runs::default();
-            for run in path.runs() {
-                runs.push(&run.iter().map(|p| by.apply(p)).collect::<Vec<_>>());
-            }
-            if let Some(curve) = paths.written_curve(at) {
-                self.written.push((self.paths.len(), curve.mapped(by)));
-            }
+            let written = paths.written_curve(at).map(|curve| curve.mapped(by).into());
+            self.written.set(self.paths.len(), written);
             let ends = [path.start_node(), path.end_node()];
             let new_ends = ends.map(|end| end.and_then(node));
             // A path that is called after its ends is called after those of the copy.
@@ -121,7 +117,7 @@ impl<'a> Copies<'a> {
             };
             self.paths.push(Insertion {
                 id,
-                runs,
+                runs: mapped_runs(path, by),
                 start_node: new_ends[0],
                 end_node: new_ends[1],
                 direction: path.direction(),
@@ -157,15 +153,10 @@ impl<'a> Copies<'a> {
 
     /// The change that sets the written curves of the inserted paths, if they have some.
     fn written_curves(&self) -> Option<Change> {
-        let rows = self
-            .written
-            .iter()
-            .map(|(at, _)| self.first_rows[0] + *at as u32);
-        let curves = self.written.iter().map(|(at, _)| &self.paths[*at].runs);
-        let mut written = WrittenCurves::default();
-        for (i, (_, curve)) in self.written.iter().enumerate() {
-            written.set(i, Some(Arc::new(curve.clone())));
-        }
+        let places: Vec<usize> = self.written.iter().map(|(at, _)| at).collect();
+        let rows = places.iter().map(|&at| self.first_rows[0] + at as u32);
+        let curves = places.iter().map(|&at| &self.paths[at].runs);
+        let written = self.written.select(&places);
         (!written.is_empty()).then(|| reshape_as_written(rows.collect(), curves, written))
     }
 

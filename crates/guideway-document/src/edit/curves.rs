@@ -1,12 +1,21 @@
 //! Curve constructions for edits: control points in, control points out.
 
 use guideway_layout::{Geometry, PathRef};
-use guideway_spline::{Point, Runs};
+use guideway_spline::{Affine, Point, Runs};
 
 /// Copies the runs of a path.
 pub(crate) fn runs_of(path: PathRef<'_>) -> Runs {
     let mut runs = Runs::default();
     path.copy_runs(&mut runs);
+    runs
+}
+
+/// The runs of a path under an affine map.
+pub(super) fn mapped_runs(path: PathRef<'_>, by: Affine) -> Runs {
+    let mut runs = Runs::default();
+    for run in path.runs() {
+        runs.push(&run.iter().map(|p| by.apply(p)).collect::<Vec<_>>());
+    }
     runs
 }
 

@@ -7,7 +7,7 @@ use guideway_layout::{Value, Values};
 use guideway_scene::{Table, TableEdit};
 use guideway_spline::{Affine, Runs, run_length};
 
-use super::curves::runs_of;
+use super::curves::{mapped_runs, runs_of};
 use super::perform::reshape;
 use crate::PathSet;
 use crate::change::Change;
@@ -31,11 +31,7 @@ pub(super) fn length_m(runs: &Runs) -> f64 {
 /// The length that the file states for a path.
 pub(super) fn stated_length_m(document: &Document, path: u32) -> Option<f64> {
     let attributes = &document.layout().paths.attributes;
-    match attributes.value(path as usize, LENGTH)? {
-        Value::Float(length_m) => Some(length_m),
-        Value::Int(length_m) => Some(length_m as f64),
-        _ => None,
-    }
+    attributes.value(path as usize, LENGTH)?.number()
 }
 
 /// The change that sets the stated lengths of paths; `None` without any.
@@ -91,13 +87,8 @@ impl Document {
         let stated = paths
             .iter()
             .filter(|&path| stated_length_m(self, path).is_some());
-        let transformed = stated.map(|path| {
-            let mut runs = Runs::default();
-            for run in self.layout().paths.get(path as usize).runs() {
-                runs.push(&run.iter().map(|p| by.apply(p)).collect::<Vec<_>>());
-            }
-            (path, runs)
-        });
+        let paths = &self.layout().paths;
+        let transformed = stated.map(|path| (path, mapped_runs(paths.get(path as usize), by)));
         let transformed: Vec<(u32, Runs)> = transformed.collect();
         let curves = transformed.iter().map(|(path, runs)| (*path, runs));
         set_lengths_m(&self.scaled_lengths_m(curves))

@@ -145,7 +145,7 @@ impl Column {
             }
             Self::Level => {
                 let level = layout.levels.get(of.level(layout, row)? as usize)?;
-                Value::Text(level.name.as_ref().unwrap_or(&level.id))
+                Value::Text(level.name_or_id())
             }
             Self::VehicleType => {
                 let types: Vec<_> = of.entries(layout)?.of(row as usize).collect();
@@ -216,10 +216,7 @@ fn position_m(layout: &Layout, of: Table, row: u32) -> Option<Point<f64>> {
     match of {
         Table::Paths => None,
         Table::Nodes => Some(layout.nodes.position_m(row)),
-        Table::Stations => layout.stations.position_m(row).or_else(|| {
-            let node = layout.stations.nodes(row).first()?;
-            Some(layout.nodes.position_m(*node))
-        }),
+        Table::Stations => layout.station_position_m(row),
     }
 }
 

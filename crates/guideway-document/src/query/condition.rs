@@ -69,17 +69,10 @@ impl Comparison {
     }
 
     fn holds_for(&self, value: Value<'_>) -> bool {
-        let order = || {
-            let number = match value {
-                Value::Int(v) => Some(v as f64),
-                Value::Float(v) => Some(v),
-                Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
-            };
-            match (number, self.number, value) {
-                (Some(left), Some(right), _) => left.partial_cmp(&right),
-                (_, _, Value::Text(left)) => Some(left.cmp(&self.text)),
-                _ => Some(value.to_string().cmp(&self.text)),
-            }
+        let order = || match (value.number(), self.number, value) {
+            (Some(left), Some(right), _) => left.partial_cmp(&right),
+            (_, _, Value::Text(left)) => Some(left.cmp(&self.text)),
+            _ => Some(value.to_string().cmp(&self.text)),
         };
         match self.operator {
             Operator::Equal => order() == Some(Ordering::Equal),

@@ -6,6 +6,7 @@
 use guideway_layout::Place;
 
 use crate::Problem;
+use crate::text::BYTE_ORDER_MARK;
 
 /// The first bytes of a binary file.
 pub(super) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
@@ -93,7 +94,7 @@ impl<'b> PairReader<'b> {
             // the bytes 00 53 or FF.
             Some([255, ..] | [0, b'S', ..]) => (SENTINEL.len(), Encoding::BinaryR12),
             Some(_) => (SENTINEL.len(), Encoding::Binary),
-            None if bytes.starts_with(b"\xEF\xBB\xBF") => (3, Encoding::Ascii),
+            None if bytes.starts_with(BYTE_ORDER_MARK) => (BYTE_ORDER_MARK.len(), Encoding::Ascii),
             None => (0, Encoding::Ascii),
         };
         Self {

@@ -43,13 +43,8 @@ pub(super) fn placement<'v>(
     if is_property {
         return Some(Placement::Property(value));
     }
-    let number = match value {
-        Value::Int(number) => Some(number as f64),
-        Value::Float(number) => Some(number),
-        _ => None,
-    };
     let field = field_of(Vocabulary::Nav2, column).filter(|_| kind == Kind::Edge);
-    Some(match field.zip(number) {
+    Some(match field.zip(value.number()) {
         // The route server reads a number without a fraction as another type.
         Some((field, number)) => {
             Placement::Metadata(field.name, Value::Float(number / field.factor))

@@ -173,12 +173,9 @@ impl Mapper<'_> {
                     });
                 }
                 let curve = &mut curves[index];
-                let (is_open, before) = (types.is_empty(), curve.types.list.len());
-                let first_name = types.first().cloned();
-                for name in types {
-                    curve.types.add(name, entries.cells.len());
-                }
-                if curve.types.list.len() == before && !(is_open && is_new) {
+                let (is_open, first_name) = (types.is_empty(), types.first().cloned());
+                let has_new = curve.types.add_all(types, entries.cells.len());
+                if !(has_new || is_open && is_new) {
                     self.report_surplus_entry(first_name.as_deref(), at_entry);
                     other.add_item(key, item.array_item(key, i));
                 }

@@ -74,12 +74,7 @@ impl Mapper<'_> {
                 };
                 self.builder.check_repeated(entry.repeated, at);
                 let names = self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at)?;
-                let index = cells.len();
-                let before = types.list.len();
-                for name in names {
-                    types.add(name, index);
-                }
-                if types.list.len() == before {
+                if !types.add_all(names, cells.len()) {
                     self.report_surplus_entry(None, at);
                     other.add_item(key, item.array_item(key, i));
                     continue;

@@ -42,8 +42,14 @@ pub(super) struct TypesOfElement {
 }
 
 impl TypesOfElement {
-    /// Adds a type, unless it is known.
-    pub(super) fn add(&mut self, name: String, entry: usize) {
+    /// Adds the types of an entry that are not known. Returns `false` if there are none.
+    pub(super) fn add_all(&mut self, names: Vec<String>, entry: usize) -> bool {
+        let before = self.list.len();
+        names.into_iter().for_each(|name| self.add(name, entry));
+        self.list.len() > before
+    }
+
+    fn add(&mut self, name: String, entry: usize) {
         const LONG: usize = 8;
         let mut known = self.list.iter().map(|of| &of.name);
         let is_new = if self.list.len() < LONG {

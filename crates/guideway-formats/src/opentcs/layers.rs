@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use guideway_layout::{Attributes, Layout, Value};
+use guideway_layout::{Attributes, Layout, Level, Value};
 use serde_json::{Map, Value as Json};
 
 use super::plant::objects;
@@ -50,7 +50,7 @@ impl Layers {
         level: Option<u32>,
     ) -> i64 {
         let level = level.and_then(|level| layout.levels.get(level as usize));
-        let level = level.map(|level| level.name.as_ref().unwrap_or(&level.id).as_str());
+        let level = level.map(Level::name_or_id);
         match attributes.value(row, "layer") {
             Some(Value::Text(label)) => self.labeled(label),
             _ => self.labeled(level.unwrap_or(DEFAULT_LAYER)),

@@ -11,12 +11,7 @@ pub(super) const SAME_NUMBER: f64 = 1e-12;
 
 /// A number that is finite.
 pub(super) fn number(value: Option<Value<'_>>) -> Option<f64> {
-    let number = match value? {
-        Value::Int(number) => number as f64,
-        Value::Float(number) => number,
-        _ => return None,
-    };
-    number.is_finite().then_some(number)
+    value?.number().filter(|number| number.is_finite())
 }
 
 /// The JSON of a value, if it is of a type.

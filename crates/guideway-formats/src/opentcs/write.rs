@@ -125,7 +125,7 @@ fn add_general_losses(layout: &Layout, losses: &mut Losses) {
 /// Tells if the name of a level is that of a layer other than the default one.
 fn is_layer(layout: &Layout, level: Option<u32>) -> bool {
     let level = level.and_then(|level| layout.levels.get(level as usize));
-    level.is_some_and(|level| level.name.as_ref().unwrap_or(&level.id) != DEFAULT_LAYER)
+    level.is_some_and(|level| level.name_or_id() != DEFAULT_LAYER)
 }
 
 /// Adds the columns of all tables that become properties.

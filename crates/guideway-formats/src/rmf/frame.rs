@@ -65,7 +65,7 @@ pub(super) fn frames(
         }
         Coordinates::Mercator => {
             let bounds = Bounds::of_points(positions.copied().filter(|p| p.is_finite()));
-            let middle = bounds.map_or(Point::new(0.0, 0.0), |b| b.min.lerp(b.max, 0.5));
+            let middle = bounds.map_or(Point::new(0.0, 0.0), |b| b.center());
             // A meter at the latitude p has the length 1 / cos p = cosh(y / R) in the projection.
             let scale = 1.0 / (middle.y / GeoOrigin::SEMI_MAJOR_M).cosh();
             builder.layout.geo_origin = bounds.and_then(|_| mercator_origin(middle));

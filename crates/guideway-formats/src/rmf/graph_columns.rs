@@ -9,11 +9,6 @@ use crate::fields::{Vocabulary, field, field_of};
 /// Returns name and text of the parameter of a lane for a value; `None` for a value that a lane
 /// does not hold.
 pub(super) fn path_column<'l>(column: &'l str, of_path: Value<'_>) -> Option<(&'l str, String)> {
-    let number = match of_path {
-        Value::Int(number) => Some(number as f64),
-        Value::Float(number) => Some(number),
-        _ => None,
-    };
     match (column, of_path) {
         // The names would stand for something else.
         ("id" | "bidirectional" | "is_bidirectional" | "graph_idx" | "mutex", _) => None,
@@ -22,7 +17,7 @@ pub(super) fn path_column<'l>(column: &'l str, of_path: Value<'_>) -> Option<(&'
             parameter(column, of_path)
         }
         ("orientation_constraint", _) => None,
-        _ => match (field_of(Vocabulary::Rmf, column), number) {
+        _ => match (field_of(Vocabulary::Rmf, column), of_path.number()) {
             // Zero would mean no limit.
             (Some(field), Some(number)) if number > 0.0 && number.is_finite() => {
                 parameter(field.name, Value::Float(number / field.factor))

@@ -84,16 +84,11 @@ fn set_parameter(
     let Some(field) = known else {
         return reader.builder.set(table, row, key, value);
     };
-    let number = match value {
-        Value::Int(number) => number as f64,
-        Value::Float(number) => number,
-        _ => f64::NAN,
-    };
-    if number > 0.0 {
+    if value.number().is_some_and(|number| number > 0.0) {
         return reader.builder.set_field(table, row, field, value);
     }
     // Zero is the editor's word for no limit.
-    if number == 0.0 {
+    if value.number() == Some(0.0) {
         return Ok(());
     }
     let message = || format!("`{key}` is {value}, which is no limit");

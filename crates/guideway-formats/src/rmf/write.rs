@@ -181,10 +181,9 @@ fn write_lifts(out: &mut impl Write, layout: &Layout, plan: &GraphPlan<'_>) -> i
     for (station, name) in &plan.lifts {
         let row = *station as usize;
         let attributes = &layout.stations.attributes;
-        let value = |name| match attributes.value(row, name) {
-            Some(Value::Float(value)) => value,
-            Some(Value::Int(value)) => value as f64,
-            _ => 0.0,
+        let value = |name| {
+            let value = attributes.value(row, name).and_then(Value::number);
+            value.unwrap_or(0.0)
         };
         let position = position(layout.stations.position_m(*station).unwrap_or_default());
         let [yaw, width, depth] = ["theta", "width", "depth"].map(|name| number(value(name)));

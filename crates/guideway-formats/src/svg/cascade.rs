@@ -125,9 +125,12 @@ impl<'d> Cascade<'d> {
     pub(super) fn add_attribute(&mut self, name: &str, value: &'d str) {
         // Their grammar differs from that of the properties, or they have other meanings. Those of
         // the geometry are read with the shape.
-        let is_other = ["transform", "translate", "rotate", "scale"].contains(&name);
-        let is_geometry = || Property::of_name(name).is_some_and(|name| GEOMETRY.contains(&name));
-        if !is_other && !is_geometry() {
+        use Property::{Rotate, Scale, Transform, Translate};
+        let is_other = |property: Property| {
+            let of_transform = [Transform, Translate, Rotate, Scale];
+            of_transform.contains(&property) || GEOMETRY.contains(&property)
+        };
+        if !Property::of_name(name).is_some_and(is_other) {
             self.add(name, value, Priority::default());
         }
     }
@@ -174,10 +177,9 @@ impl<'d> Cascade<'d> {
 
     /// The length that a property of the geometry has, by its name.
     pub(super) fn geometry(&self, name: &str) -> Option<&'d str> {
-        let winners = self.winners.iter();
-        let mut geometry = winners.filter(|winner| GEOMETRY.contains(&winner.property));
-        let winner = geometry.find(|winner| Property::of_name(name) == Some(winner.property))?;
-        Some(winner.value)
+        let property = Property::of_name(name)?;
+        self.value(property)
+            .filter(|_| GEOMETRY.contains(&property))
     }
 
     /// The winning value of a property.

@@ -151,22 +151,15 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             .of_child(&cascade, context.viewport, &self.paint_servers);
         style.is_displayed &= is_met(node);
         let viewport = context.viewport.with_font_size(style.font_size);
-        let inner = ElementContext {
+        let mut inner = ElementContext {
             viewport,
             style,
             depth: context.depth + 1,
             ..*context
         };
         let transform = self.transform(node, &cascade, &inner)?;
-        let meters_from_user = transform.then(context.meters_from_user);
-        self.content(
-            node,
-            &cascade,
-            &ElementContext {
-                meters_from_user,
-                ..inner
-            },
-        )
+        inner.meters_from_user = transform.then(context.meters_from_user);
+        self.content(node, &cascade, &inner)
     }
 
     /// Walks what an element shows, in its user space.
@@ -318,18 +311,14 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
                 let style = inner
                     .style
                     .of_child(&cascade, viewport, &self.paint_servers);
-                let inner = ElementContext {
+                let mut inner = ElementContext {
                     viewport: viewport.with_font_size(style.font_size),
                     style,
                     depth: inner.depth + 1,
                     ..inner
                 };
                 let transform = self.transform(target, &cascade, &inner)?;
-                let meters_from_user = transform.then(inner.meters_from_user);
-                let inner = ElementContext {
-                    meters_from_user,
-                    ..inner
-                };
+                inner.meters_from_user = transform.then(inner.meters_from_user);
                 self.nested_viewport(target, size, &inner)
             }
             _ => self.element(target, &inner),

@@ -3,7 +3,7 @@
 use guideway_spline::{Bounds, uniform};
 
 use super::options::CheckOptions;
-use crate::{Code, Layout, PathRef, Value};
+use crate::{Code, Layout, PathRef};
 
 /// A path smaller than this is a point, whatever the layout.
 const LEAST_SIZE_M: f64 = 1e-12;
@@ -204,11 +204,7 @@ fn bounds(path: PathRef<'_>) -> Option<Bounds<f64>> {
 }
 
 fn drive_time(layout: &Layout, row: usize, size_m: f64) -> Option<DriveTime> {
-    let speed_m_per_s = match layout.paths.value(row, "maxSpeed")? {
-        Value::Float(speed) => speed,
-        Value::Int(speed) => speed as f64,
-        Value::Bool(_) | Value::Text(_) | Value::Json(_) => return None,
-    };
+    let speed_m_per_s = layout.paths.value(row, "maxSpeed")?.number()?;
     (speed_m_per_s > 0.0).then(|| DriveTime {
         time_s: size_m / speed_m_per_s,
         speed_m_per_s,

@@ -114,8 +114,7 @@ fn greatest(list: &str) -> Option<f64> {
 /// The greatest angle that the formats of a layout allow, in radians. A larger one was probably
 /// written in degrees.
 pub fn largest_angle_rad(layout: &Layout) -> f64 {
-    let mut formats = layout.provenance.format.split(" + ");
-    match formats.all(|format| HALF_TURN_FORMATS.contains(&format)) {
+    match layout.provenance.is_all_of(&HALF_TURN_FORMATS) {
         true => HALF_TURN_RAD,
         false => LARGEST_ANGLE_RAD,
     }

@@ -218,6 +218,8 @@ impl ChangeGroup {
     pub(super) fn shrunk(mut self) -> Self {
         self.elements.shrink_to_fit();
         self.changes.shrink_to_fit();
+        self.distances_m.shrink_to_fit();
+        self.entries.shrink_to_fit();
         self
     }
 

@@ -48,15 +48,10 @@ pub(super) fn compare_cells(
 /// Returns `true` if two cells are equal, numbers within a relative tolerance. A whole number
 /// equals the number of the same value; NaN equals NaN; JSON texts may differ in white space.
 pub(super) fn are_equal(cells: [Option<Value<'_>>; 2], relative_tolerance: f64) -> bool {
-    let number = |value: Value<'_>| match value {
-        Value::Int(v) => Some(v as f64),
-        Value::Float(v) => Some(v),
-        Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
-    };
     match cells {
         [None, None] => true,
         [Some(Value::Int(a)), Some(Value::Int(b))] => a == b,
-        [Some(a), Some(b)] => match (number(a), number(b)) {
+        [Some(a), Some(b)] => match (a.number(), b.number()) {
             (Some(a), Some(b)) => {
                 let size = a.abs().max(b.abs());
                 a == b || (a - b).abs() <= size * relative_tolerance || a.is_nan() && b.is_nan()

@@ -1,7 +1,7 @@
 //! Pieces: cuts curves at their cuts, and drops pieces that vanish or are drawn twice.
 
 use guideway_spline::Point;
-use guideway_spline::bezier::{Bezier, SAME_M, move_end, move_start, point, split};
+use guideway_spline::bezier::{Bezier, SAME_M, move_end, move_start, part, point};
 use rayon::prelude::*;
 
 use super::drawn::{Curve, Drawn, polygon_m};
@@ -63,20 +63,6 @@ impl Piece {
             move_end(last, end);
         }
     }
-}
-
-/// The part of a cubic between two parameters.
-fn part(bezier: &Bezier, from: f64, to: f64) -> Bezier {
-    let rest = match from > 0.0 {
-        true => split(bezier, from)[1],
-        false => *bezier,
-    };
-    if to >= 1.0 {
-        return rest;
-    }
-    // The parameter within the rest of the cubic.
-    let t = (to - from) / (1.0 - from);
-    split(&rest, t.clamp(0.0, 1.0))[0]
 }
 
 /// The pieces of some curves.

@@ -1,6 +1,6 @@
 //! [`Costs`]: time along each arc, and the headings at its ends.
 
-use guideway_layout::{Layout, PathRef, Value};
+use guideway_layout::{Layout, PathRef};
 use guideway_spline::{segment_length, uniform};
 use rayon::prelude::*;
 
@@ -109,11 +109,7 @@ fn own_speed(layout: &Layout, vehicle_type: Option<&str>) -> Option<f64> {
         .vehicle_types
         .iter()
         .find(|t| Some(t.id.as_str()) == vehicle_type)?;
-    match own.attributes.value(0, "maxSpeed")? {
-        Value::Float(speed) => Some(speed),
-        Value::Int(speed) => Some(speed as f64),
-        _ => None,
-    }
+    own.attributes.value(0, "maxSpeed")?.number()
 }
 
 struct Limits<'a> {

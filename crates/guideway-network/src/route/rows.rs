@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use guideway_layout::{
-    Direction, Layout, NewPath, Provenance, WrittenCurve, WrittenCurves, element_name,
+    Direction, Geometry, Layout, Provenance, WrittenCurve, WrittenCurves, element_name,
 };
-use guideway_spline::{Point, Runs};
+use guideway_spline::Runs;
 
 use super::router::Router;
 use super::search::Found;
@@ -173,28 +173,15 @@ impl Route {
 
 /// Directs a path from its end to its start.
 fn turn_around(route: &mut Layout, path: usize, nodes: &HashMap<u32, u32>, row: &RouteRow) {
-    let runs: Vec<Vec<Point<f64>>> = route
-        .paths
-        .get(path)
-        .runs()
-        .map(|r| r.iter().collect())
-        .collect();
-    let mut turned = Runs::default();
-    for run in runs.iter().rev() {
-        turned.push(&run.iter().rev().copied().collect::<Vec<_>>());
-    }
-    let mut one = Layout::default();
-    one.paths.push(&NewPath {
-        runs: &turned,
-        ..NewPath::default()
-    });
+    let mut runs = Runs::default();
+    route.paths.get(path).copy_runs(&mut runs);
+    let mut geometry = Geometry::default();
+    geometry.push(&runs.reversed());
     let mut written = WrittenCurves::default();
     let curve = route.paths.written_curve(path).map(WrittenCurve::reversed);
     written.set(0, curve.map(Into::into));
-    let geometry = one.paths.geometry();
-    route
-        .paths
-        .replace_curves(&[path as u32], geometry, &written);
+    let paths = &mut route.paths;
+    paths.replace_curves(&[path as u32], &geometry, &written);
     let node = |row: u32| nodes.get(&row).copied();
     route.paths.set_nodes(path, node(row.from), node(row.to));
 }

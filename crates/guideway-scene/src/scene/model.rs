@@ -28,7 +28,7 @@ pub struct SceneOptions {
     /// Draws only the level with this name or id.
     pub level: Option<String>,
     /// Draws walls, doors and lanes of humans in gray below the ways of vehicles, unless a column
-    /// decides the colors.
+    /// decides the colors. An edit of the scene does not keep the order.
     pub has_gray_structure: bool,
 }
 
@@ -130,7 +130,9 @@ impl Scene {
         };
         let is_plain = options.color_by.is_none() && options.has_gray_structure;
         if is_plain && colors.gray_structure(&layout) {
-            draw_order.sort_by_key(|&path| layout.paths.is_driven(path as usize));
+            let is_driven = |path: &u32| layout.paths.is_driven(*path as usize);
+            let (above, below): (Vec<u32>, _) = draw_order.into_iter().partition(is_driven);
+            draw_order = [below, above].concat();
         }
         Ok(Self {
             layout,

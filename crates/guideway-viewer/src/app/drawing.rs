@@ -5,17 +5,17 @@ use std::sync::Arc;
 use eframe::egui::Context;
 use guideway_document::Document;
 use guideway_layout::{Layout, Level, UserError};
-use guideway_scene::Table;
 use guideway_spline::{Affine, Point};
 
 use super::state::App;
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::files::{Layer, NewLayout};
-use crate::language::{counted, t};
+use crate::language::t;
 use crate::panels::SideTab;
 use crate::selection::{
-    CopiedElements, DUPLICATE_OFFSET_PX, PointerPlace, arrange_command, question, selection_command,
+    CopiedElements, DUPLICATE_OFFSET_PX, PointerPlace, arrange_command, counts, question,
+    selection_command,
 };
 use crate::services::AppServices;
 use crate::tools::HIT_RADIUS_PX;
@@ -30,7 +30,7 @@ impl App {
     pub(super) fn new_layout(&mut self) {
         let (method, options) = (self.methods.name(), self.settings.scene_options());
         let (files, new) = (&mut self.files, NewLayout::By(empty_layout));
-        files.open_untitled(("untitled", "lif.json"), new, method, options);
+        files.open_untitled("untitled", new, method, options);
         self.tools.clear_hover();
     }
 
@@ -50,7 +50,7 @@ impl App {
             drawing.look.has_names = false;
         }
         let files = &mut self.files;
-        files.open_untitled((&stem, "lif.json"), new, method, options);
+        files.open_untitled(&stem, new, method, options);
         self.bottom.view = None;
         self.side.open(SideTab::Findings);
         self.tools.clear_hover();
@@ -71,11 +71,7 @@ impl App {
             return;
         };
         let selected = document.selected();
-        let counts = Table::ALL.into_iter().filter_map(|of| {
-            let count = selected.rows(of).len();
-            (count > 0).then(|| counted(count, of.element()))
-        });
-        let text = counts.collect::<Vec<_>>().join(", ");
+        let text = counts(selected).join(", ");
         let from = (!cuts).then(|| layer.path().to_owned());
         match document.clip(selected) {
             Ok(clip) => self.copied = Some(CopiedElements::new(clip, from)),

@@ -28,7 +28,7 @@ impl App {
         let (method, options) = (self.methods.name(), self.settings.scene_options());
         let new = NewLayout::By(|services| services.example_site());
         let files = &mut self.files;
-        files.open_untitled(("example-site", "lif.json"), new, method, options);
+        files.open_untitled("example-site", new, method, options);
     }
 
     pub(super) fn close(&mut self, index: usize) {

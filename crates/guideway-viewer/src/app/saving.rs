@@ -9,13 +9,10 @@ use super::state::App;
 use crate::action::Action;
 use crate::command::Command;
 use crate::file_purpose::PromptKind;
-use crate::files::{WriteOutcome, Written};
+use crate::files::{DEFAULT_EXTENSION, WriteOutcome, Written};
 use crate::language::{say, t};
 use crate::panels::dialogs::{Question, Risk};
 use crate::services::{LostPart, Saved};
-
-/// Suggested extension where the format of the file has no writer, or saving would lose content.
-const DEFAULT_EXTENSION: &str = "lif.json";
 
 impl App {
     /// Saves the next file of those that close after saving. Gives up where a question comes up or

@@ -1,11 +1,13 @@
-//! Work on other threads: one task with one result, the handle that wakes the window, and which
-//! requests for a repaint show a frame.
+//! Work on other threads: one task with one result, the result for the latest subject, the handle
+//! that wakes the window, and which requests for a repaint show a frame.
 
+mod latest_task;
 mod redraw_timer;
 mod repaint_gate;
 mod repaint_handle;
 mod task;
 
+pub(crate) use latest_task::LatestTask;
 pub(crate) use redraw_timer::RedrawTimer;
 pub(crate) use repaint_gate::RepaintGate;
 pub(crate) use repaint_handle::RepaintHandle;

@@ -3,13 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
-use std::thread;
 use std::time::Duration;
 
 use guideway_layout::UserError;
 
 use super::RepaintHandle;
-use crate::language::{language, set_language, t};
+use crate::language::{start_thread, t};
 use crate::services::WINDOW_ERROR;
 
 /// A closure that runs once on its own thread.
@@ -30,9 +29,7 @@ impl<T: Send + 'static> BackgroundTask<T> {
         let is_awaited = Arc::<AtomicBool>::default();
         let (repaint, skips_repaint) = (Arc::clone(repaint), Arc::clone(&is_awaited));
         // Without a thread the sender is dropped, and the result is an error.
-        let language = language();
-        let _ = thread::Builder::new().spawn(move || {
-            set_language(language);
+        let _ = start_thread(move || {
             // The receiver is gone if the task was dropped in the meantime.
             let _ = sender.send(work());
             if !skips_repaint.load(Ordering::SeqCst) {

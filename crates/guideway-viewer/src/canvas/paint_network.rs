@@ -54,10 +54,9 @@ pub(super) fn paint_network(
     for at in spread(&mut report.gaps_m.iter().copied()) {
         painter.circle_stroke(at, RADIUS, stroke(JOINED_COLOR));
     }
-    let (stations, nodes) = (&drafted.layout.stations, &drafted.layout.nodes);
+    let stations = &drafted.layout.stations;
     let visible = (0..stations.len() as u32).filter_map(|row| {
-        let at_node = || Some(nodes.position_m(*stations.nodes(row).first()?));
-        let at_m = stations.position_m(row).or_else(at_node)?;
+        let at_m = drafted.layout.station_position_m(row)?;
         bounds.contains(at_m).then(|| (row, point(at_m)))
     });
     let visible: Vec<(u32, Pos2)> = visible.take(MAX_STATIONS).collect();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use guideway_document::Document;
 
 use super::changed::Changed;
-use crate::background::{BackgroundTask, RepaintHandle};
+use crate::background::{LatestTask, RepaintHandle};
 use crate::files::{Layer, OpenFiles};
 
 /// The subject of a result: the two files, and the states of their documents.
@@ -20,8 +20,7 @@ struct CompareKey {
 pub(crate) struct Comparison {
     /// The file that the active one is compared with.
     pub(crate) with: Option<PathBuf>,
-    result: Option<(CompareKey, Result<Changed, String>)>,
-    task: Option<(CompareKey, BackgroundTask<Changed>)>,
+    latest: LatestTask<CompareKey, Result<Changed, String>>,
 }
 
 impl Comparison {
@@ -36,12 +35,12 @@ impl Comparison {
     }
 
     pub(crate) fn is_busy(&self) -> bool {
-        self.task.is_some()
+        self.latest.is_busy()
     }
 
     /// The changes of the two files; those before the last edit while they are compared again.
     pub(crate) fn changed(&self, files: &OpenFiles) -> Option<Result<&Changed, &str>> {
-        let (key, changed) = self.result.as_ref()?;
+        let (key, changed) = self.latest.result()?;
         let (_, other) = self.other(files)?;
         let is_present = other.is_at(&key.files[0]) && files.active()?.is_at(&key.files[1]);
         is_present.then(|| changed.as_ref().map_err(String::as_str))
@@ -49,12 +48,7 @@ impl Comparison {
 
     /// Compares again after a change; takes a finished result.
     pub(crate) fn update(&mut self, files: &OpenFiles, repaint: &RepaintHandle) {
-        if let Some((_, task)) = &self.task
-            && let Some(result) = task.result()
-        {
-            let result = result.map_err(|error| error.to_string());
-            self.result = self.task.take().map(|(key, _)| (key, result));
-        }
+        self.latest.take_finished(|error| Err(error.to_string()));
         let (Some((_, other)), Some(active)) = (self.other(files), files.active()) else {
             return;
         };
@@ -65,12 +59,11 @@ impl Comparison {
             files: [other.path().to_owned(), active.path().to_owned()],
             states: [old, new].map(Document::state),
         };
-        let is_done = self.result.as_ref().is_some_and(|(done, _)| *done == key);
-        if is_done || self.task.is_some() {
+        if !self.latest.is_due(&key) {
             return;
         }
         let (old, new) = (old.snapshot(), new.snapshot());
-        let task = BackgroundTask::start(repaint, move || Changed::of(&old, &new));
-        self.task = Some((key, task));
+        let compare = move || Ok(Changed::of(&old, &new));
+        self.latest.start(key, repaint, compare);
     }
 }

@@ -84,13 +84,7 @@ fn marks(layout: &Layout, found: &Diagnostics) -> Vec<FindingMark> {
         let at_m = match located(&finding.place)? {
             Element::Path(row) => place_on(layout, row, finding.code)?,
             Element::Node(row) => layout.nodes.position_m(row),
-            Element::Station(row) => {
-                let at_node = || {
-                    let node = layout.stations.nodes(row).first()?;
-                    Some(layout.nodes.position_m(*node))
-                };
-                layout.stations.position_m(row).or_else(at_node)?
-            }
+            Element::Station(row) => layout.station_position_m(row)?,
         };
         Some(FindingMark {
             severity: finding.severity,

@@ -37,15 +37,9 @@ pub(crate) struct Layer {
     /// True if unsaved work is recorded beside the file.
     pub(super) keeps_journal: bool,
     /// The layout until it has a file; `path` is the suggested name then.
-    pub(super) new: Option<NewFile>,
-    /// The draft that the file has replaced; its journal moves away with the first save.
-    draft: Option<DraftFile>,
-}
-
-/// A layout that has no file yet.
-pub(super) struct NewFile {
-    pub(super) layout: NewLayout,
-    /// Its draft; `None` where no state is kept.
+    new: Option<NewLayout>,
+    /// The draft of a layout that began without a file; `None` where no state is kept. The journal
+    /// moves away from it with the first save.
     pub(super) draft: Option<DraftFile>,
 }
 
@@ -55,8 +49,7 @@ impl Drop for Layer {
         // stays until the user decides about it.
         if !std::thread::panicking() && !self.has_unsaved_work() {
             self.discard_journal();
-            let new = self.new.as_ref().and_then(|new| new.draft.as_ref());
-            if let Some(draft) = new.or(self.draft.as_ref()) {
+            if let Some(draft) = &self.draft {
                 draft.delete();
             }
         }
@@ -64,11 +57,11 @@ impl Drop for Layer {
 }
 
 impl Layer {
-    /// Opens a file, or a layout that has none yet and would be saved as `path`: starts to read or
-    /// make it, and starts its render thread.
+    /// Opens a file, or a layout that has none yet and would be saved as `path`, with its draft:
+    /// starts to read or make it, and starts its render thread.
     pub(super) fn open(
         path: PathBuf,
-        new: Option<NewFile>,
+        (new, draft): (Option<NewLayout>, Option<DraftFile>),
         method: &str,
         options: SceneOptions,
         context: &LayerContext,
@@ -86,7 +79,7 @@ impl Layer {
             owes_scene: false,
             keeps_journal: context.services.keeps_journals(),
             new,
-            draft: None,
+            draft,
         };
         layer.load(None, options, context);
         layer
@@ -203,9 +196,9 @@ impl Layer {
         let LayerContext { services, repaint } = context.clone();
         let source = match &self.new {
             None => Source::File(self.path.clone()),
-            Some(NewFile { layout, draft }) => {
+            Some(layout) => {
                 // A reload must not change the file that the journal belongs to.
-                let unwritten = draft.as_ref().filter(|draft| !draft.path().exists());
+                let unwritten = self.draft.as_ref().filter(|draft| !draft.path().exists());
                 let draft = unwritten.map(|draft| draft.path().to_owned());
                 Source::New(layout.clone(), draft)
             }
@@ -236,10 +229,7 @@ impl Layer {
             self.path.clone_from(path);
         }
         let state = context.services.file_stamp(&self.path);
-        let is_first = saved_as.is_some() && self.is_untitled();
-        if is_first {
-            self.draft = self.new.take().and_then(|new| new.draft);
-        }
+        let is_first = saved_as.is_some() && self.new.take().is_some();
         let opens_journal = is_first && self.draft.is_none() && self.keeps_journal;
         let complete = self.save.end(saved_as, state, opens_journal);
         self.run(complete, EDIT_WAIT, &context.repaint)
@@ -247,7 +237,7 @@ impl Layer {
 
     /// The file beside which the journal lies: the draft of a layout without a file.
     pub(super) fn journal_home(&self) -> &Path {
-        let draft = self.new.as_ref().and_then(|new| new.draft.as_ref());
+        let draft = self.draft.as_ref().filter(|_| self.is_untitled());
         draft.map_or(&self.path, DraftFile::path)
     }
 

@@ -141,7 +141,7 @@ impl Layer {
 
     /// Opens the journal of the file, if this run keeps journals. Returns a notice about it.
     fn open_journal(&mut self) -> Option<String> {
-        let has_home = self.new.as_ref().is_none_or(|new| new.draft.is_some());
+        let has_home = !self.is_untitled() || self.draft.is_some();
         let home = self.journal_home().to_owned();
         let journal = self.slot.journal_mut();
         // The present one has a lock that would keep the next one out.

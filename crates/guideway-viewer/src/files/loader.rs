@@ -4,7 +4,6 @@ use std::convert::Infallible;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender, TryIter};
-use std::thread;
 use std::time::Duration;
 
 use guideway_document::{Document, ReplayProgress};
@@ -14,7 +13,7 @@ use guideway_scene::{Scene, SceneOptions};
 use super::draft_file::write_draft;
 use crate::background::RepaintHandle;
 use crate::editing::{Findings, UnsavedWork};
-use crate::language::{language, say, set_language, t};
+use crate::language::{say, start_thread, t};
 use crate::services::{AppServices, Job, WINDOW_ERROR};
 
 /// Longest time that the loader waits for the first picture before it builds the document: until
@@ -86,9 +85,7 @@ impl Loader {
         let is_recovering = unsaved.is_some();
         let watched = Arc::clone(&job);
         let failed = sender.clone();
-        let language = language();
-        let started = thread::Builder::new().spawn(move || {
-            set_language(language);
+        let started = start_thread(move || {
             let send = |piece| {
                 // The receiver is gone if the file was closed in the meantime.
                 let _ = sender.send(piece);

@@ -29,4 +29,4 @@ pub(crate) use layer_context::LayerContext;
 pub(crate) use layer_event::LayerEvent;
 pub(crate) use layer_look::LayerLook;
 pub(crate) use loader::NewLayout;
-pub(crate) use open_files::OpenFiles;
+pub(crate) use open_files::{DEFAULT_EXTENSION, OpenFiles};

@@ -8,7 +8,7 @@ use guideway_scene::SceneOptions;
 use guideway_spline::Bounds;
 
 use super::draft_file::DraftFile;
-use super::layer::{Layer, NewFile};
+use super::layer::Layer;
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::loader::NewLayout;
@@ -16,6 +16,10 @@ use super::recent_files::RecentFiles;
 use super::save_state::changed_on_disk;
 use super::watcher::Watcher;
 use crate::language::say;
+
+/// Suggested extension where a layout has no file, the format of the file has no writer, or saving
+/// would lose content.
+pub(crate) const DEFAULT_EXTENSION: &str = "lif.json";
 
 /// The open files from the top; the active one is edited, and drawn above all.
 pub(crate) struct OpenFiles {
@@ -132,48 +136,51 @@ impl OpenFiles {
             self.active = index;
             return;
         }
-        self.push(Layer::open(path, None, method, options, &self.context));
+        let layer = Layer::open(path, (None, None), method, options, &self.context);
+        self.push(layer);
     }
 
-    /// Opens a layout that has no file yet. `stem` and `extension` become the suggested name, with
-    /// a number between them where an open file or one on disk has that name.
+    /// Opens a layout that has no file yet. Its suggested name begins with `stem`, with a number
+    /// behind it where an open file or one on disk has that name.
     pub(crate) fn open_untitled(
         &mut self,
-        (stem, extension): (&str, &str),
+        stem: &str,
         new: NewLayout,
         method: &str,
         options: SceneOptions,
     ) {
-        let numbered = (2..).map(|number| PathBuf::from(format!("{stem}-{number}.{extension}")));
-        let mut names =
-            std::iter::once(PathBuf::from(format!("{stem}.{extension}"))).chain(numbered);
+        let name = |stem: &str| PathBuf::from(format!("{stem}.{DEFAULT_EXTENSION}"));
+        let numbered = (2..).map(|number| name(&format!("{stem}-{number}")));
+        let mut names = std::iter::once(name(stem)).chain(numbered);
         let services = &self.context.services;
         let is_free =
             |path: &PathBuf| self.index_of(path).is_none() && services.file_stamp(path).is_none();
         let path = names.find(is_free);
         let path = path.unwrap_or_default();
-        let state = services
-            .state_folder()
-            .filter(|_| services.keeps_journals());
+        let state = self.draft_state();
         let draft = state.and_then(|state| DraftFile::create(&state, &path));
-        let new = NewFile { layout: new, draft };
-        self.push(Layer::open(path, Some(new), method, options, &self.context));
+        let new = (Some(new), draft);
+        let layer = Layer::open(path, new, method, options, &self.context);
+        self.push(layer);
+    }
+
+    /// The state folder, if it keeps drafts.
+    fn draft_state(&self) -> Option<PathBuf> {
+        let services = &self.context.services;
+        services
+            .state_folder()
+            .filter(|_| services.keeps_journals())
     }
 
     /// Opens the layouts without a file that earlier runs left with unsaved work.
     pub(crate) fn open_left_drafts(&mut self, method: &str, options: &SceneOptions) {
-        let services = &self.context.services;
-        let state = services
-            .state_folder()
-            .filter(|_| services.keeps_journals());
+        let state = self.draft_state();
         for draft in state.iter().flat_map(|state| DraftFile::left(state)) {
-            let new = NewFile {
-                layout: NewLayout::Draft(draft.path().to_owned()),
-                draft: Some(draft),
-            };
-            let path = new.draft.as_ref().map(DraftFile::suggested_name);
-            let (path, options) = (path.unwrap_or_default(), options.clone());
-            self.push(Layer::open(path, Some(new), method, options, &self.context));
+            let path = draft.suggested_name();
+            let new = NewLayout::Draft(draft.path().to_owned());
+            let new = (Some(new), Some(draft));
+            let layer = Layer::open(path, new, method, options.clone(), &self.context);
+            self.push(layer);
         }
     }
 

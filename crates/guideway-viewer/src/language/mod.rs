@@ -8,7 +8,9 @@
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::fmt::Display;
+use std::io;
 use std::sync::LazyLock;
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use guideway_document::text_format;
@@ -76,6 +78,15 @@ pub(crate) fn set_language(language: Language) {
     LANGUAGE.set(language);
 }
 
+/// Starts a thread with the language of this one.
+pub(crate) fn start_thread(work: impl FnOnce() + Send + 'static) -> io::Result<JoinHandle<()>> {
+    let language = language();
+    thread::Builder::new().spawn(move || {
+        set_language(language);
+        work();
+    })
+}
+
 /// A text in the language of this thread; in English where the table lacks it.
 pub(crate) fn t(english: &str) -> &str {
     match language() {
@@ -140,17 +151,12 @@ pub(crate) fn counted(n: u64, thing: &str) -> String {
 
 /// A duration in its largest whole unit: `40 seconds`, `3 hours`.
 pub(crate) fn duration(duration: Duration) -> String {
-    match language() {
-        Language::English => text_format::duration(duration),
-        Language::German => {
-            let seconds = duration.as_secs();
-            match seconds {
-                0..60 => counted(seconds, "second"),
-                60..3_600 => counted(seconds / 60, "minute"),
-                3_600..86_400 => counted(seconds / 3_600, "hour"),
-                _ => counted(seconds / 86_400, "day"),
-            }
-        }
+    let seconds = duration.as_secs();
+    match seconds {
+        0..60 => counted(seconds, "second"),
+        60..3_600 => counted(seconds / 60, "minute"),
+        3_600..86_400 => counted(seconds / 3_600, "hour"),
+        _ => counted(seconds / 86_400, "day"),
     }
 }
 
@@ -179,6 +185,13 @@ mod tests {
         assert_eq!(counted(1020, "path"), "1.020 Wege");
         set_language(Language::English);
         assert_eq!(counted(1020, "path"), "1,020 paths");
+    }
+
+    #[test]
+    fn durations_have_their_largest_unit() {
+        let texts = [1, 59, 61, 7_200, 200_000].map(|s| duration(Duration::from_secs(s)));
+        let expected = ["1 second", "59 seconds", "1 minute", "2 hours", "2 days"];
+        assert_eq!(texts, expected);
     }
 
     #[test]

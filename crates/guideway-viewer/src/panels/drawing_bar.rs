@@ -94,19 +94,17 @@ impl DrawingBar<'_> {
 
 /// The level that is shown and drawn on.
 fn show_level(ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
-    let name = |row: u32| {
-        let level = &document.layout().levels[row as usize];
-        level.name.clone().unwrap_or_else(|| level.id.clone())
-    };
+    let levels = &document.layout().levels;
+    let name = |row: u32| levels[row as usize].name_or_id();
     let shown = document.level();
-    let text = shown.map_or_else(|| t("all").to_owned(), name);
+    let text = shown.map_or(t("all"), name);
     let label = ui.label(t("Level"));
     ComboBox::from_id_salt("level")
         .selected_text(text)
         .show_ui(ui, |ui| {
-            let each = (0..document.layout().levels.len() as u32).map(Some);
+            let each = (0..levels.len() as u32).map(Some);
             for level in std::iter::once(None).chain(each) {
-                let text = level.map_or_else(|| t("all").to_owned(), name);
+                let text = level.map_or(t("all"), name);
                 if ui.selectable_label(shown == level, text).clicked() {
                     let show = EditTask::view_change(move |document| document.show_level(level));
                     actions.push(Action::Edit(show));

@@ -1,7 +1,7 @@
 //! The Find tab: search by name, and selection by query.
 
 use eframe::egui::{Key, TextEdit, Ui};
-use guideway_document::{Element, SelectMode};
+use guideway_document::SelectMode;
 
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
@@ -26,11 +26,7 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
     if let Some(document) = files.document() {
         let layout = document.layout();
         for element in find.results(document) {
-            let kind = match element {
-                Element::Path(_) => t("path"),
-                Element::Node(_) => t("node"),
-                Element::Station(_) => t("station"),
-            };
+            let kind = t(element.table_row().0.element());
             if ui.link(format!("{kind} {}", element.id(layout))).clicked() {
                 actions.push(Action::ZoomTo(element));
             }

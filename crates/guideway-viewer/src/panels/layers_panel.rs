@@ -5,7 +5,7 @@ use eframe::egui::{
     Align, Button, Color32, Id, Label, Layout, RichText, Role, Slider, Ui, WidgetInfo,
 };
 use guideway_document::Document;
-use guideway_layout::{Level, shown_path};
+use guideway_layout::shown_path;
 use guideway_scene::{Rgba, Table};
 
 use crate::action::Action;
@@ -236,9 +236,9 @@ fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
 
 /// Row and name of every level.
 fn levels(document: &Document) -> Vec<(u32, String)> {
-    let name = |level: &Level| level.name.clone().unwrap_or_else(|| level.id.clone());
     let levels = document.layout().levels.iter().zip(0..);
-    levels.map(|(level, row)| (row, name(level))).collect()
+    let levels = levels.map(|(level, row)| (row, level.name_or_id().to_owned()));
+    levels.collect()
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ pub(super) fn show(
         ));
         return;
     }
-    let sources = draft.sources(files).cloned().unwrap_or_default();
+    let sources = draft.sources(files).unwrap_or_default();
     ui.horizontal_wrapped(|ui| {
         show_lengths(ui, draft);
         show_layers(ui, draft, &sources);

@@ -2,12 +2,11 @@
 
 use eframe::egui::{DragValue, Label, Ui};
 use guideway_document::Elements;
-use guideway_scene::Table;
 
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
-use crate::language::{counted, say, t};
-use crate::selection::ExactEdit;
+use crate::language::{say, t};
+use crate::selection::{ExactEdit, counts};
 
 /// Shows the head, which always takes the same space.
 pub(super) fn show(
@@ -53,11 +52,7 @@ pub(super) fn show(
 
 /// `2 paths and 1 station selected`.
 pub(super) fn summary(selected: &Elements) -> String {
-    let counts = Table::ALL.into_iter().filter_map(|of| {
-        let count = selected.rows(of).len();
-        (count > 0).then(|| counted(count, of.element()))
-    });
-    let counts: Vec<String> = counts.collect();
+    let counts = counts(selected);
     match counts.is_empty() {
         true => t("Nothing is selected").to_owned(),
         false => say!("{counts} selected", counts = counts.join(t(" and "))),

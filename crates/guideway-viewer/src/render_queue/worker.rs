@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
-use std::thread::{self, JoinHandle};
+use std::thread::JoinHandle;
 use std::time::Instant;
 
 use eframe::egui::ColorImage;
@@ -16,7 +16,7 @@ use super::method_selection::FALLBACK_METHOD;
 use super::queue::{RenderJob, RenderQueue, SceneUpdate};
 use super::request::RenderRequest;
 use crate::background::RepaintHandle;
-use crate::language::{language, say, set_language};
+use crate::language::{say, start_thread};
 use crate::services::AppServices;
 
 /// A message from the render thread to the window.
@@ -61,11 +61,7 @@ pub(super) fn spawn(
         frame: None,
     };
     // Without a thread the sender is dropped, which the window reports.
-    let language = language();
-    let thread = thread::Builder::new().spawn(move || {
-        set_language(language);
-        worker.run();
-    });
+    let thread = start_thread(move || worker.run());
     (events, thread.ok())
 }
 

@@ -5,7 +5,7 @@ use guideway_envelope::EnvelopeSource;
 use guideway_spline::Point;
 
 use super::found::{FoundRoute, RoutePlace};
-use crate::background::{BackgroundTask, RepaintHandle};
+use crate::background::{LatestTask, RepaintHandle};
 
 /// Start or goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,8 +38,7 @@ pub(crate) struct RouteSearch {
     /// The part of the route that the vehicle has driven, from 0 to 1.
     pub(crate) driven: f32,
     pub(crate) shows_area: bool,
-    result: Option<(RouteKey, Found)>,
-    task: Option<(RouteKey, BackgroundTask<Found>)>,
+    latest: LatestTask<RouteKey, Found>,
 }
 
 impl RouteSearch {
@@ -92,12 +91,12 @@ impl RouteSearch {
     }
 
     pub(crate) fn is_busy(&self) -> bool {
-        self.task.is_some()
+        self.latest.is_busy()
     }
 
     /// The result for the active file, if it is not out of date.
     pub(crate) fn result(&self, file: usize) -> Option<Result<&FoundRoute, &str>> {
-        let (key, found) = self.result.as_ref().filter(|(key, _)| key.file == file)?;
+        let (key, found) = self.latest.result().filter(|(key, _)| key.file == file)?;
         let is_present = |slot: Slot| self.place(slot) == Some(&key.places[slot as usize]);
         let is_present = is_present(Slot::From) && is_present(Slot::To);
         is_present.then(|| found.as_ref().map_err(String::as_str))
@@ -111,12 +110,7 @@ impl RouteSearch {
         vehicle: Option<EnvelopeSource>,
         repaint: &RepaintHandle,
     ) {
-        if let Some((_, task)) = &self.task
-            && let Some(result) = task.result()
-        {
-            let found = result.unwrap_or_else(|error| Err(error.to_string()));
-            self.result = self.task.take().map(|(key, _)| (key, found));
-        }
+        self.latest.take_finished(|error| Err(error.to_string()));
         let (Some(document), [Some(from), Some(to)]) = (document, &self.places) else {
             return;
         };
@@ -130,17 +124,15 @@ impl RouteSearch {
             vehicle_type: vehicle_type.or(types.first()).cloned(),
             vehicle: vehicle.filter(|_| self.shows_area),
         };
-        let is_done = self.result.as_ref().is_some_and(|(done, _)| *done == key);
-        if is_done || self.task.is_some() {
+        if !self.latest.is_due(&key) {
             return;
         }
         let (snapshot, wanted) = (document.snapshot(), key.clone());
-        let task = BackgroundTask::start(repaint, move || {
+        self.latest.start(key, repaint, move || {
             let [from, to] = &wanted.places;
             let vehicle_type = wanted.vehicle_type.as_deref();
             FoundRoute::search(&snapshot, vehicle_type, [from, to], wanted.vehicle)
         });
-        self.task = Some((key, task));
     }
 }
 

@@ -2,12 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use guideway_document::{Document, PathSet, SelectMode};
-use guideway_scene::View;
+use guideway_document::{Document, Elements, PathSet, SelectMode};
+use guideway_scene::{Table, View};
 use guideway_spline::{Affine, Point};
 
 use crate::command::Command;
 use crate::editing::EditTask;
+use crate::language::counted;
 
 /// Offset of a duplicate on screen, in pixels: far enough to see both.
 pub(crate) const DUPLICATE_OFFSET_PX: f64 = 24.0;
@@ -55,6 +56,15 @@ fn transform(name: &'static str, about: fn(Point<f64>) -> Affine) -> EditTask {
 
 fn step(step: fn(&mut Document) -> Option<&'static str>, nothing: &'static str) -> EditTask {
     EditTask::edit(move |document| step(document).map(drop).ok_or(nothing))
+}
+
+/// The number of elements of each kind, such as `2 paths` and `1 station`.
+pub(crate) fn counts(elements: &Elements) -> Vec<String> {
+    let counts = Table::ALL.into_iter().filter_map(|of| {
+        let count = elements.rows(of).len();
+        (count > 0).then(|| counted(count, of.element()))
+    });
+    counts.collect()
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ mod find;
 mod prompted;
 
 pub(crate) use arrange::{PointerPlace, arrange_command};
-pub(crate) use commands::{DUPLICATE_OFFSET_PX, selection_command};
+pub(crate) use commands::{DUPLICATE_OFFSET_PX, counts, selection_command};
 pub(crate) use copied::CopiedElements;
 pub(crate) use exact_edit::ExactEdit;
 pub(crate) use find::Find;

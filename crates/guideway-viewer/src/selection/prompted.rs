@@ -1,7 +1,7 @@
 //! Commands that need a number or a name: fillet, weld, distribute, array, level, rename.
 
 use guideway_document::{Document, Element, Elements, ShapeError};
-use guideway_layout::{Layout, UserError};
+use guideway_layout::{Layout, Level, UserError};
 use guideway_spline::Point;
 
 use super::arrange::{corners, selected_nodes, selected_paths};
@@ -186,10 +186,7 @@ fn only_element(selected: &Elements) -> Result<Element, UserError> {
 
 /// The names of all levels, or their identifiers where they have none.
 pub(crate) fn level_names(layout: &Layout) -> Vec<&str> {
-    let levels = layout.levels.iter();
-    levels
-        .map(|level| level.name.as_deref().unwrap_or(&level.id))
-        .collect()
+    layout.levels.iter().map(Level::name_or_id).collect()
 }
 
 fn level_named(document: &Document, name: &str) -> Result<u32, String> {

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use guideway::compose::VectorFormat;
-use guideway::formats::Target;
+use guideway::compose::{Picture, Rendered, VectorFormat};
+use guideway::formats::{Progress, Target};
 use guideway::layout::{UserError, shown_path};
 
 use super::error::usage_error;
@@ -64,6 +64,25 @@ impl PictureFormat {
                 ),
             )),
         }
+    }
+}
+
+/// Color of paths beside those that a picture is about, as RRGGBBAA.
+pub(crate) const OTHER_PATHS: u32 = 0xb4b4_b4ff;
+
+/// Saves a picture in a format; its pixels are those of the `cpu` method.
+///
+/// # Errors
+/// When the picture cannot be rendered, or the file cannot be written.
+pub(crate) fn save(
+    picture: &Picture,
+    format: PictureFormat,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<Rendered, UserError> {
+    match format.vector() {
+        Some(format) => Ok(picture.save_vector(format, path)?),
+        None => Ok(picture.save_png(&*guideway::method("cpu")?, path, progress)?),
     }
 }
 

@@ -40,11 +40,7 @@ impl Document {
     /// When the path is unknown.
     pub fn template_of(&self, path: u32) -> EdgeTemplate {
         let (paths, row) = (&self.layout().paths, path as usize);
-        let speed = |value: Option<Value<'_>>| match value? {
-            Value::Float(speed) => Some(speed),
-            Value::Int(speed) => Some(speed as f64),
-            _ => None,
-        };
+        let speed = |value: Option<Value<'_>>| value?.number();
         let entries = paths.vehicle_types();
         let own = |name: &str| {
             let entry = entries.entry_for(row, name)?;

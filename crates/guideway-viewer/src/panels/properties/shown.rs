@@ -32,7 +32,7 @@ impl Shown {
     /// Reads the selected elements of a table; `key` is file and revision.
     pub(super) fn new(layout: &Layout, of: Table, selected: &Elements, key: (usize, u64)) -> Self {
         let rows = selected.rows(of);
-        let name = |level: &Level| level.name.clone().unwrap_or_else(|| level.id.clone());
+        let name = |level: &Level| level.name_or_id().to_owned();
         let some: Vec<usize> = rows
             .iter()
             .take(MAX_COMPARED)

@@ -13,10 +13,9 @@ use guideway::spline::{Bounds, Point};
 
 use super::findings::SeverityCounts;
 use crate::cli::output::Output;
-use crate::cli::picture_file::PictureFormat;
+use crate::cli::picture_file::{OTHER_PATHS, PictureFormat, save as save_picture};
 use crate::cli::text;
 
-const GRAY: u32 = 0xb4b4_b4ff;
 /// Radius of a ring and half its thickness, in points.
 const RING_POINTS: [f64; 2] = [9.0, 1.25];
 /// Height of the texts, in points.
@@ -57,7 +56,7 @@ pub(crate) fn save(
         0 => String::new(),
         count => format!(", {count} at no element"),
     };
-    let mut styles = vec![(GRAY, 0); layout.paths.len()];
+    let mut styles = vec![(OTHER_PATHS, 0); layout.paths.len()];
     for &(element, severity, _) in &located {
         if let Element::Path(row) = element {
             let style = (color(severity).to_u32(), rank(severity));
@@ -91,10 +90,7 @@ pub(crate) fn save(
     };
     let view = picture.view()?;
     picture.overlay = rings(&spots(picture.scene.layout(), &located, &view), &view);
-    match format.vector() {
-        Some(format) => Ok(picture.save_vector(format, path)?),
-        None => Ok(picture.save_png(&*guideway::method("cpu")?, path, &progress)?),
-    }
+    save_picture(&picture, format, path, &progress)
 }
 
 fn color(severity: Severity) -> Rgba {

@@ -9,10 +9,9 @@ use guideway::layout::{Change, Changes, ElementKind, Layout, UserError, merge};
 use guideway::scene::{FrameSize, LineRule, Scene, SceneOptions};
 
 use crate::cli::output::Output;
-use crate::cli::picture_file::PictureFormat;
+use crate::cli::picture_file::{OTHER_PATHS, PictureFormat, save};
 
 /// Colors as RRGGBBAA, of increasing draw rank.
-const UNCHANGED: u32 = 0xb4b4_b4ff;
 const OLD_SHAPE: u32 = 0xf2b2_b2ff;
 const CHANGED: u32 = 0x1f6f_d6ff;
 const ADDED: u32 = 0x2a9d_3aff;
@@ -45,18 +44,14 @@ pub(super) fn write(
         title: Some(TITLE.to_owned()),
         ..Decorations::default()
     };
-    if let Some(format) = PictureFormat::of_output(output, None)?.vector() {
-        picture.save_vector(format, output)?;
-    } else {
-        let method = guideway::method("cpu")?;
-        picture.save_png(&*method, output, &progress)?;
-    }
+    let format = PictureFormat::of_output(output, None)?;
+    save(&picture, format, output, &progress)?;
     Ok(())
 }
 
 /// The new layout and the old paths that are gone or had another shape, with colors and ranks.
 fn colored([old, new]: [&Layout; 2], found: &Changes<'_>) -> Layout {
-    let mut of_new = vec![(UNCHANGED, 0); new.paths.len()];
+    let mut of_new = vec![(OTHER_PATHS, 0); new.paths.len()];
     let mut of_old = BTreeSet::new();
     let mut removed = BTreeSet::new();
     for of in found

@@ -135,7 +135,7 @@ fn level_parts(layout: &Arc<Layout>, options: &SceneOptions) -> Result<Vec<Level
         };
         Ok(LevelPart {
             scene: Arc::new(Scene::new(Arc::clone(layout), &options)?),
-            title: level.name.clone().unwrap_or_else(|| level.id.clone()),
+            title: level.name_or_id().to_owned(),
         })
     };
     let shown = levels.filter(|(_, has_paths)| *has_paths);

@@ -49,9 +49,7 @@ fn hidden_levels(layout: &Layout) -> Option<String> {
     if !is_over {
         return None;
     }
-    let names = drawn
-        .iter()
-        .map(|(level, _)| level.name.as_ref().unwrap_or(&level.id));
+    let names = drawn.iter().map(|(level, _)| level.name_or_id());
     let names: Vec<String> = names.map(|name| shown_text(name).into_owned()).collect();
     Some(format!(
         "levels lie over each other: {}; `--level NAME` draws one",
