@@ -66,15 +66,12 @@ pub fn legend(
     let (ticks, classes) = legend
         .entries
         .split_at(tick_count.min(legend.entries.len()));
-    let title = text(&legend.title(), style);
-    let of_ticks: Vec<_> = ticks
-        .iter()
-        .map(|entry| text(&label(entry), style))
-        .collect();
-    let labels: Vec<_> = classes
-        .iter()
-        .map(|entry| text(&label(entry), style))
-        .collect();
+    let title = text(single_line(&legend.title(), MAX_LABEL_CHARS), style);
+    let labels_of = |entries: &[LegendEntry]| -> Vec<TextLine> {
+        let labels = entries.iter().map(label);
+        labels.map(|label| text(label, style)).collect()
+    };
+    let (of_ticks, labels) = (labels_of(ticks), labels_of(classes));
     let bar_px = legend
         .scale
         .as_ref()
@@ -175,9 +172,9 @@ fn bar(list: &mut DrawList, scale: &LegendScale, top: Point<f64>, style: &Decora
 }
 
 /// A line of text that has no place yet.
-fn text(text: &str, style: &DecorationStyle) -> TextLine {
+fn text(text: String, style: &DecorationStyle) -> TextLine {
     TextLine {
-        text: single_line(text, MAX_LABEL_CHARS),
+        text,
         left_middle_px: Point::default(),
         char_width_px: style.line_px() * TextLine::CHAR_ASPECT,
         color: style.ink,
@@ -223,6 +220,18 @@ mod tests {
         let swatch = &list.fills[1].polygons[0];
         let middle = (swatch[0].y + swatch[2].y) / 2.0;
         assert_eq!(middle, list.texts[1].left_middle_px.y);
+    }
+
+    #[test]
+    fn a_long_label_keeps_the_number_of_its_paths() {
+        let mut legend = speeds();
+        legend.entries[0].label = "very ".repeat(9) + "fast";
+        let size = FrameSize::new(800, 200).unwrap();
+        let style = DecorationStyle::new(Rgba::WHITE, 1.0);
+        let (list, _) = super::legend(&legend, size, 0.0, Corner::UpperLeft, &style).unwrap();
+        let text = &list.texts[1].text;
+        assert!(text.ends_with(" (1,234)"), "{text}");
+        assert!(text.chars().count() <= MAX_LABEL_CHARS + " (1,234)".len());
     }
 
     #[test]
