@@ -1,7 +1,7 @@
 //! Cuts curves at the boundary that clips a block (XCLIP): runs in meters in, the pieces inside
 //! out.
 
-use guideway_spline::bezier::{Bezier, bounds, point, split};
+use guideway_spline::bezier::{Bezier, bounds, part, point, split};
 use guideway_spline::{Bounds, Point, Runs, uniform};
 
 type P = Point<f64>;
@@ -16,6 +16,16 @@ const HALVINGS: u32 = 40;
 const COMPARE: u64 = 1;
 const SEARCH: u64 = 64;
 
+/// Comparisons with boundaries in any file, and for each of its bytes. Derived: the first take a
+/// second.
+const BASE_WORK: u64 = 1 << 26;
+const WORK_PER_BYTE: u64 = 256;
+
+/// The comparisons that a file may ask for.
+pub(super) fn work(file_bytes: usize) -> u64 {
+    BASE_WORK + file_bytes as u64 * WORK_PER_BYTE
+}
+
 /// The region that a boundary leaves visible, within those of the blocks around it.
 pub(super) struct ClipRegion<'a> {
     /// The corners of the boundary, in meters.
@@ -28,32 +38,50 @@ pub(super) struct ClipRegion<'a> {
 pub(super) struct TooMuchWork;
 
 impl<'a> ClipRegion<'a> {
-    /// A region; `None` without corners.
-    pub(super) fn new(corners: Vec<P>, around: Option<&'a Self>) -> Option<Self> {
-        Some(Self {
-            bounds: Bounds::of_slice(&corners)?,
+    /// A region; `None` without corners. Takes from `work_left` what that costs.
+    ///
+    /// # Errors
+    /// When no work is left.
+    pub(super) fn new(
+        corners: impl ExactSizeIterator<Item = P>,
+        around: Option<&'a Self>,
+        work_left: &mut u64,
+    ) -> Result<Option<Self>, TooMuchWork> {
+        take_work(corners.len(), work_left)?;
+        let corners: Vec<P> = corners.collect();
+        Ok(Bounds::of_slice(&corners).map(|bounds| Self {
             corners,
+            bounds,
             around,
-        })
+        }))
     }
 
-    /// Returns `true` if a point is visible.
-    pub(super) fn shows(&self, point: P) -> bool {
-        self.contains(point) && self.around.is_none_or(|around| around.shows(point))
+    /// Returns `true` if a point is visible. Takes from `work_left` what that costs.
+    ///
+    /// # Errors
+    /// When no work is left.
+    pub(super) fn shows(&self, point: P, work_left: &mut u64) -> Result<bool, TooMuchWork> {
+        take_work(self.corners.len(), work_left)?;
+        match self.around {
+            _ if !self.contains(point) => Ok(false),
+            Some(around) => around.shows(point, work_left),
+            None => Ok(true),
+        }
     }
 
     /// The visible pieces of a curve, in its order. Takes from `work_left` what that costs.
     ///
     /// # Errors
     /// When no work is left.
-    pub(super) fn cut(&self, runs: Runs, work_left: &mut u64) -> Result<Vec<Runs>, TooMuchWork> {
-        let whole = match self.around {
-            Some(around) => around.cut(runs, work_left)?,
-            None => vec![runs],
-        };
+    pub(super) fn cut(&self, runs: &Runs, work_left: &mut u64) -> Result<Vec<Runs>, TooMuchWork> {
         let mut pieces = Vec::new();
-        for runs in &whole {
-            self.cut_at_own(runs, work_left, &mut pieces)?;
+        match self.around {
+            Some(around) => {
+                for runs in around.cut(runs, work_left)? {
+                    self.cut_at_own(&runs, work_left, &mut pieces)?;
+                }
+            }
+            None => self.cut_at_own(runs, work_left, &mut pieces)?,
         }
         Ok(pieces)
     }
@@ -115,9 +143,7 @@ impl<'a> ClipRegion<'a> {
         cuts[last] = 1.0;
         let mut parts: Vec<(f64, f64, bool)> = Vec::new();
         for ends in cuts.windows(2) {
-            *work_left = work_left
-                .checked_sub(COMPARE * self.corners.len() as u64)
-                .ok_or(TooMuchWork)?;
+            take_work(self.corners.len(), work_left)?;
             let is_inside = self.contains(point(curve, ends[0].midpoint(ends[1])));
             match parts.last_mut() {
                 Some((_, to, last)) if *last == is_inside => *to = ends[1],
@@ -156,11 +182,12 @@ impl<'a> ClipRegion<'a> {
     }
 }
 
-/// The part of a curve between two parameters.
-fn part(curve: &Bezier, from: f64, to: f64) -> Bezier {
-    let [before, _] = split(curve, to);
-    let [_, part] = split(&before, from / to);
-    part
+/// Takes the work of a comparison for each of `count` corners.
+fn take_work(count: usize, work_left: &mut u64) -> Result<(), TooMuchWork> {
+    *work_left = work_left
+        .checked_sub(COMPARE * count as u64)
+        .ok_or(TooMuchWork)?;
+    Ok(())
 }
 
 /// Appends the parameters at which a polynomial in Bernstein form changes its sign, between those
@@ -191,7 +218,13 @@ mod tests {
         corners.iter().map(|&(x, y)| Point::new(x, y)).collect()
     }
 
-    fn cut(region: &ClipRegion<'_>, runs: Runs) -> Vec<(P, P)> {
+    fn region<'a>(corners: &[(f64, f64)], around: Option<&'a ClipRegion<'a>>) -> ClipRegion<'a> {
+        let corners = polygon(corners).into_iter();
+        let region = ClipRegion::new(corners, around, &mut 1_000_000);
+        region.ok().flatten().expect("a region")
+    }
+
+    fn cut(region: &ClipRegion<'_>, runs: &Runs) -> Vec<(P, P)> {
         let Ok(pieces) = region.cut(runs, &mut 1_000_000) else {
             panic!("too much work");
         };
@@ -226,21 +259,21 @@ mod tests {
             (2.0, 4.0),
             (0.0, 4.0),
         ];
-        let region = ClipRegion::new(polygon(&corners), None).unwrap();
-        let found = cut(&region, line((-1.0, 3.0), (9.0, 3.0)));
+        let region = region(&corners, None);
+        let found = cut(&region, &line((-1.0, 3.0), (9.0, 3.0)));
         assert_ends(
             &found,
             &[[(0.0, 3.0), (2.0, 3.0)], [(4.0, 3.0), (6.0, 3.0)]],
         );
         assert_ends(
-            &cut(&region, line((1.0, 1.0), (5.0, 1.0))),
+            &cut(&region, &line((1.0, 1.0), (5.0, 1.0))),
             &[[(1.0, 1.0), (5.0, 1.0)]],
         );
-        assert_ends(&cut(&region, line((2.5, 3.0), (3.5, 3.0))), &[]);
+        assert_ends(&cut(&region, &line((2.5, 3.0), (3.5, 3.0))), &[]);
         // From the boundary outwards, and on it.
-        assert_ends(&cut(&region, line((6.0, 1.0), (9.0, 1.0))), &[]);
+        assert_ends(&cut(&region, &line((6.0, 1.0), (9.0, 1.0))), &[]);
         assert_ends(
-            &cut(&region, line((-1.0, 0.0), (9.0, 0.0))),
+            &cut(&region, &line((-1.0, 0.0), (9.0, 0.0))),
             &[[(0.0, 0.0), (6.0, 0.0)]],
         );
         let mut two = line((1.0, 1.0), (1.0, 9.0));
@@ -249,7 +282,7 @@ mod tests {
             [(1.0, 1.0), (1.0, 4.0)],
             [(5.0 - 2.0 / 3.0, 4.0), (5.0, 3.0)],
         ];
-        assert_ends(&cut(&region, two), &expected);
+        assert_ends(&cut(&region, &two), &expected);
     }
 
     #[test]
@@ -257,24 +290,28 @@ mod tests {
         // An arch that is 3 m high: y = 12 t (1 - t), x = 4 t.
         let mut arch = Runs::default();
         arch.push_quadratic(&[(0.0, 0.0), (2.0, 6.0), (4.0, 0.0)].map(|(x, y)| Point::new(x, y)));
-        let square =
-            |min: f64, max: f64| polygon(&[(min, min), (max, min), (max, max), (min, max)]);
-        let outer = ClipRegion::new(square(-9.0, 9.0), None).unwrap();
-        assert_ends(&cut(&outer, arch.clone()), &[[(0.0, 0.0), (4.0, 0.0)]]);
-        let inner = ClipRegion::new(
-            polygon(&[(-1.0, 2.25), (3.0, 2.25), (3.0, 9.0), (-1.0, 9.0)]),
+        let square = |min: f64, max: f64| [(min, min), (max, min), (max, max), (min, max)];
+        let outer = region(&square(-9.0, 9.0), None);
+        assert_ends(&cut(&outer, &arch), &[[(0.0, 0.0), (4.0, 0.0)]]);
+        let inner = region(
+            &[(-1.0, 2.25), (3.0, 2.25), (3.0, 9.0), (-1.0, 9.0)],
             Some(&outer),
-        )
-        .unwrap();
-        assert_ends(&cut(&inner, arch.clone()), &[[(1.0, 2.25), (3.0, 2.25)]]);
-        let apart = ClipRegion::new(square(20.0, 30.0), Some(&inner)).unwrap();
-        assert_ends(&cut(&apart, arch.clone()), &[]);
-        let below = polygon(&[(-9.0, -9.0), (9.0, -9.0), (9.0, 2.5), (-9.0, 2.5)]);
-        let again = ClipRegion::new(below, Some(&inner)).unwrap();
-        let pieces = cut(&again, arch.clone());
+        );
+        assert_ends(&cut(&inner, &arch), &[[(1.0, 2.25), (3.0, 2.25)]]);
+        let apart = region(&square(20.0, 30.0), Some(&inner));
+        assert_ends(&cut(&apart, &arch), &[]);
+        let below = [(-9.0, -9.0), (9.0, -9.0), (9.0, 2.5), (-9.0, 2.5)];
+        let again = region(&below, Some(&inner));
+        let pieces = cut(&again, &arch);
         assert_eq!(pieces.len(), 2, "{pieces:?}");
-        assert!((pieces[0].1.y - 2.5).abs() < 1e-9 && again.shows(Point::new(2.0, 2.4)));
-        assert!(!again.shows(Point::new(2.0, 2.0)) && !again.shows(Point::new(2.0, 2.6)));
-        assert!(again.cut(arch, &mut 3).is_err());
+        assert!((pieces[0].1.y - 2.5).abs() < 1e-9);
+        let shows = |y: f64, mut work: u64| again.shows(Point::new(2.0, y), &mut work).ok();
+        assert_eq!(
+            [2.0, 2.4, 2.6].map(|y| shows(y, 12)),
+            [false, true, false].map(Some)
+        );
+        assert!(shows(2.4, 11).is_none() && again.cut(&arch, &mut 3).is_err());
+        let corners = polygon(&square(0.0, 1.0)).into_iter();
+        assert!(ClipRegion::new(corners, None, &mut 3).is_err());
     }
 }

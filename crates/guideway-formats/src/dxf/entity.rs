@@ -88,6 +88,18 @@ impl<'b> Entity<'b> {
         }
     }
 
+    /// The path identifier: the handles of the INSERTs around it, then its own identifier or
+    /// handle, or in old files without handles its line.
+    pub(super) fn id_after(&self, handle_prefix: &str) -> String {
+        let own = match (&self.path_id, self.handle, self.line) {
+            (Some(id), ..) => id.clone(),
+            (None, b"", Some(line)) => format!("line {line}"),
+            (None, b"", None) => self.kind.to_owned(),
+            (None, handle, _) => String::from_utf8_lossy(handle).into_owned(),
+        };
+        format!("{handle_prefix}{own}")
+    }
+
     /// Number of entities that it expands to: 1, or for an INSERT its cells times `in_block(row)`.
     pub(super) fn expanded_count(&self, in_block: impl FnOnce(u32) -> u64) -> u64 {
         match &self.shape {

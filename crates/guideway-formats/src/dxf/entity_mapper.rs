@@ -4,7 +4,7 @@ use guideway_layout::{Code, NewPath, Place, Severity, TextPosition, Value, Writt
 use guideway_spline::Runs;
 
 use super::affine3::{Affine3, Vector3};
-use super::clip_region::{ClipRegion, TooMuchWork};
+use super::clip_region::{self, ClipRegion, TooMuchWork};
 use super::clips::Boundary;
 use super::drawing::Drawing;
 use super::entity::Entity;
@@ -27,11 +27,6 @@ const BYTES_PER_ENTITY: u64 = 16;
 /// legitimately repeat large blocks.
 const BASE_POINTS: u64 = 4 << 20;
 
-/// Comparisons of curves with the boundaries of blocks in any file, and for each of its bytes.
-/// Derived: the first take a second.
-const BASE_CLIP_WORK: u64 = 1 << 26;
-const CLIP_WORK_PER_BYTE: u64 = 256;
-
 /// Remedy for blocks that are drawn beyond their boundary.
 pub(super) const CLIP_REMEDY: &str =
     "To draw the visible part only, explode the block and trim it in the CAD program";
@@ -52,14 +47,6 @@ pub(super) struct InsertContext<'a> {
     pub(super) region: Option<&'a ClipRegion<'a>>,
 }
 
-impl InsertContext<'_> {
-    /// Returns `true` if no boundary hides a point.
-    fn shows(&self, point: Vector3) -> bool {
-        let region = self.region;
-        region.is_none_or(|region| region.shows(self.transform.point(point).xy()))
-    }
-}
-
 /// Maps entities to the paths of a layout.
 pub(super) struct EntityMapper<'a> {
     pub(super) builder: Builder<'a>,
@@ -78,7 +65,7 @@ impl<'a> EntityMapper<'a> {
             builder,
             colors: Vec::new(),
             entities_left: BASE_ENTITIES + file_bytes as u64 / BYTES_PER_ENTITY,
-            clip_work_left: BASE_CLIP_WORK + file_bytes as u64 * CLIP_WORK_PER_BYTE,
+            clip_work_left: clip_region::work(file_bytes),
         }
     }
 
@@ -94,7 +81,11 @@ impl<'a> EntityMapper<'a> {
     ) -> Result<(), ReadError> {
         let at: PlaceFn<'_> = &|| Place {
             line: entity.line,
-            ..Place::element(format!("{} {}", entity.kind, path_id(entity, context)))
+            ..Place::element(format!(
+                "{} {}",
+                entity.kind,
+                entity.id_after(context.handle_prefix)
+            ))
         };
         // Inside a block, layer 0 means the layer of the INSERT.
         let layer_row = match context.layer {
@@ -120,7 +111,9 @@ impl<'a> EntityMapper<'a> {
         if is_note(entity.kind) {
             // Hidden and broken entities name nothing.
             return match (&entity.shape, detail) {
-                (Shape::Mark(mark), None) if context.shows(mark.at) => {
+                (Shape::Mark(mark), None)
+                    if self.shows(context.region, context.transform.point(mark.at), at) =>
+                {
                     add_mark(&mut self.builder, mark, &context.transform, &layer.name)
                 }
                 _ => Ok(()),
@@ -140,7 +133,7 @@ impl<'a> EntityMapper<'a> {
         if let Shape::Broken(code, detail) = &entity.shape {
             return self.refuse(entity, context, *code, detail, at);
         }
-        let id = path_id(entity, context);
+        let id = entity.id_after(context.handle_prefix);
         let Shape::Lines(lines) = &entity.shape else {
             return self.map_curve((&entity.shape, &id), entity, context, (layer, color), at);
         };
@@ -180,11 +173,9 @@ impl<'a> EntityMapper<'a> {
         let Some(region) = context.region else {
             return self.push_path((id, &runs, written), entity, layer, color);
         };
-        let cut = region.cut(runs.clone(), &mut self.clip_work_left);
-        let pieces = cut.unwrap_or_else(|TooMuchWork| {
-            self.report_unclipped(at, "it takes too many comparisons");
-            vec![runs.clone()]
-        });
+        let cut = region.cut(&runs, &mut self.clip_work_left);
+        let pieces = self.within_work(cut, at);
+        let pieces = pieces.unwrap_or_else(|| vec![runs.clone()]);
         match &pieces[..] {
             [] => {
                 let detail = "it is outside of the boundary that clips its block (XCLIP)";
@@ -317,7 +308,7 @@ impl<'a> EntityMapper<'a> {
             };
             self.entities_left = left;
         }
-        let handle = path_id(entity, context);
+        let handle = entity.id_after(context.handle_prefix);
         let is_array = insert.columns > 1 || insert.rows > 1;
         for row in 0..insert.rows {
             for column in 0..insert.columns {
@@ -335,7 +326,9 @@ impl<'a> EntityMapper<'a> {
                 let region = match boundary {
                     Some(Boundary::Corners(corners)) => {
                         let corners = corners.iter().map(|&p| transform.point(p).xy());
-                        ClipRegion::new(corners.collect(), context.region)
+                        let work_left = &mut self.clip_work_left;
+                        let region = ClipRegion::new(corners, context.region, work_left);
+                        self.within_work(region, at).flatten()
                     }
                     _ => None,
                 };
@@ -350,13 +343,28 @@ impl<'a> EntityMapper<'a> {
                     self.map_entity(drawing, entity, &inner)?;
                 }
                 let layer = inner.layer.map_or("", |row| &drawing.layers.get(row).name);
-                let at = transform.point(base).xy();
-                if context.region.is_none_or(|region| region.shows(at)) {
-                    add_block(&mut self.builder, &block.name, layer, at)?;
+                let place = transform.point(base);
+                if self.shows(context.region, place, at) {
+                    add_block(&mut self.builder, &block.name, layer, place.xy())?;
                 }
             }
         }
         Ok(())
+    }
+
+    /// Returns `true` if no region hides a point, or none can tell within its work.
+    fn shows(&mut self, region: Option<&ClipRegion<'_>>, point: Vector3, at: PlaceFn<'_>) -> bool {
+        let shows = region.map(|region| region.shows(point.xy(), &mut self.clip_work_left));
+        self.within_work(shows.unwrap_or(Ok(true)), at)
+            .unwrap_or(true)
+    }
+
+    /// Unwraps a result of clipping; reports the block, which is drawn whole, if there is none.
+    fn within_work<T>(&mut self, found: Result<T, TooMuchWork>, at: PlaceFn<'_>) -> Option<T> {
+        if found.is_err() {
+            self.report_unclipped(at, "it takes too many comparisons");
+        }
+        found.ok()
     }
 
     /// Reports a block that is drawn beyond its boundary.
@@ -381,19 +389,7 @@ impl<'a> EntityMapper<'a> {
             Code::NotDrawn => "Nothing to do if it is meant to be hidden",
             _ => "It is left out; correct it in the tool that wrote the file",
         };
-        let id = path_id(entity, context);
+        let id = entity.id_after(context.handle_prefix);
         self.builder.refuse_at(&id, code, detail, at, remedy)
     }
-}
-
-/// The path identifier of an entity: the handles of the INSERTs around it, then its own identifier
-/// or handle, or in old files without handles its line.
-fn path_id(entity: &Entity<'_>, context: &InsertContext<'_>) -> String {
-    let own = match (&entity.path_id, entity.handle, entity.line) {
-        (Some(id), ..) => id.clone(),
-        (None, b"", Some(line)) => format!("line {line}"),
-        (None, b"", None) => entity.kind.to_owned(),
-        (None, handle, _) => String::from_utf8_lossy(handle).into_owned(),
-    };
-    format!("{}{own}", context.handle_prefix)
 }
