@@ -17,6 +17,10 @@ use guideway_layout::Layout;
 use crate::editing::JournalFile;
 use crate::services::AppServices;
 
+/// Suggested extension where a layout has no file, the format of the file has no writer, or saving
+/// would lose content.
+pub(crate) const DEFAULT_EXTENSION: &str = "lif.json";
+
 const FOLDER: &str = "drafts";
 /// Ending of a draft: a format that keeps all of a layout and its rows.
 const EXTENSION: &str = ".arrow";
@@ -78,10 +82,11 @@ impl DraftFile {
         &self.path
     }
 
-    /// The name under which its layout would be saved.
-    pub(super) fn suggested_name(&self) -> PathBuf {
+    /// The name under which its layout would be saved, up to the extension.
+    pub(super) fn suggested_stem(&self) -> String {
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
-        name.strip_suffix(EXTENSION).unwrap_or(&name).into()
+        let extension = format!(".{DEFAULT_EXTENSION}{EXTENSION}");
+        name.strip_suffix(&extension).unwrap_or(&name).to_owned()
     }
 
     /// Deletes the draft. Its journal must be discarded or moved away before.
@@ -107,31 +112,40 @@ fn has_unsaved_work(draft: &Path) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use guideway_document::Document;
 
     use super::*;
     use crate::tests::services::lanes;
 
+    /// A draft with unsaved work, as a crash leaves it.
+    pub(in crate::files) fn left_behind(state: &Path, name: &Path) -> DraftFile {
+        let draft = DraftFile::create(state, name).unwrap();
+        let mut document = Document::new(lanes(2).into(), &Default::default()).unwrap();
+        fs::write(draft.path(), "").unwrap();
+        document.select_all();
+        document.delete_selection().unwrap();
+        let mut journal = JournalFile::open(draft.path()).unwrap();
+        journal.record(&mut document, draft.path()).unwrap();
+        let is_draft = |left: &DraftFile| left.path() == draft.path();
+        assert!(
+            !DraftFile::left(state).iter().any(is_draft),
+            "its window has it"
+        );
+        draft
+    }
+
     #[test]
     fn drafts_without_edits_are_not_work() {
         let state = tempfile::tempdir().unwrap();
         let name = Path::new("untitled.lif.json");
-        let [idle, edited] = [(); 2].map(|()| DraftFile::create(state.path(), name).unwrap());
+        let idle = DraftFile::create(state.path(), name).unwrap();
+        fs::write(idle.path(), "").unwrap();
+        let edited = left_behind(state.path(), name);
         assert_ne!(idle.path(), edited.path());
-        let mut document = Document::new(lanes(2).into(), &Default::default()).unwrap();
-        for draft in [&idle, &edited] {
-            fs::write(draft.path(), "").unwrap();
-        }
-        document.select_all();
-        document.delete_selection().unwrap();
-        let mut journal = JournalFile::open(edited.path()).unwrap();
-        journal.record(&mut document, edited.path()).unwrap();
-        assert_eq!(DraftFile::left(state.path()).len(), 0, "its window has it");
-        drop(journal);
         let left = DraftFile::left(state.path());
         let paths: Vec<&Path> = left.iter().map(DraftFile::path).collect();
         assert_eq!(paths, [edited.path()]);
-        assert_eq!(left[0].suggested_name(), name);
+        assert_eq!(left[0].suggested_stem(), "untitled");
     }
 }

@@ -23,10 +23,11 @@ mod recent_files;
 mod save_state;
 mod watcher;
 
+pub(crate) use draft_file::DEFAULT_EXTENSION;
 pub(crate) use file_writer::{FileWriter, WriteOutcome, Written};
 pub(crate) use layer::Layer;
 pub(crate) use layer_context::LayerContext;
 pub(crate) use layer_event::LayerEvent;
 pub(crate) use layer_look::LayerLook;
 pub(crate) use loader::NewLayout;
-pub(crate) use open_files::{DEFAULT_EXTENSION, OpenFiles};
+pub(crate) use open_files::OpenFiles;

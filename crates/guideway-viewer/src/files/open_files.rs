@@ -7,7 +7,7 @@ use guideway_document::Document;
 use guideway_scene::SceneOptions;
 use guideway_spline::Bounds;
 
-use super::draft_file::DraftFile;
+use super::draft_file::{DEFAULT_EXTENSION, DraftFile};
 use super::layer::Layer;
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
@@ -16,10 +16,6 @@ use super::recent_files::RecentFiles;
 use super::save_state::changed_on_disk;
 use super::watcher::Watcher;
 use crate::language::say;
-
-/// Suggested extension where a layout has no file, the format of the file has no writer, or saving
-/// would lose content.
-pub(crate) const DEFAULT_EXTENSION: &str = "lif.json";
 
 /// The open files from the top; the active one is edited, and drawn above all.
 pub(crate) struct OpenFiles {
@@ -149,19 +145,23 @@ impl OpenFiles {
         method: &str,
         options: SceneOptions,
     ) {
+        let path = self.free_name(stem);
+        let state = self.draft_state();
+        let draft = state.and_then(|state| DraftFile::create(&state, &path));
+        let new = (Some(new), draft);
+        let layer = Layer::open(path, new, method, options, &self.context);
+        self.push(layer);
+    }
+
+    /// The first name that begins with `stem` and that neither an open file nor one on disk has.
+    fn free_name(&self, stem: &str) -> PathBuf {
         let name = |stem: &str| PathBuf::from(format!("{stem}.{DEFAULT_EXTENSION}"));
         let numbered = (2..).map(|number| name(&format!("{stem}-{number}")));
         let mut names = std::iter::once(name(stem)).chain(numbered);
         let services = &self.context.services;
         let is_free =
             |path: &PathBuf| self.index_of(path).is_none() && services.file_stamp(path).is_none();
-        let path = names.find(is_free);
-        let path = path.unwrap_or_default();
-        let state = self.draft_state();
-        let draft = state.and_then(|state| DraftFile::create(&state, &path));
-        let new = (Some(new), draft);
-        let layer = Layer::open(path, new, method, options, &self.context);
-        self.push(layer);
+        names.find(is_free).unwrap_or_default()
     }
 
     /// The state folder, if it keeps drafts.
@@ -176,7 +176,8 @@ impl OpenFiles {
     pub(crate) fn open_left_drafts(&mut self, method: &str, options: &SceneOptions) {
         let state = self.draft_state();
         for draft in state.iter().flat_map(|state| DraftFile::left(state)) {
-            let path = draft.suggested_name();
+            // Two windows may have left drafts of one name, and a file may have it by now.
+            let path = self.free_name(&draft.suggested_stem());
             let new = NewLayout::Draft(draft.path().to_owned());
             let new = (Some(new), Some(draft));
             let layer = Layer::open(path, new, method, options.clone(), &self.context);
@@ -317,6 +318,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::files::draft_file::tests::left_behind;
     use crate::tests::services::{TestServices, lanes};
 
     fn open_files() -> OpenFiles {
@@ -374,5 +376,19 @@ mod tests {
                 .active()
                 .is_some_and(|layer| layer.name() == "a.arrow")
         );
+    }
+
+    #[test]
+    fn left_drafts_of_one_name_open_under_names_of_their_own() {
+        let state = tempfile::tempdir().unwrap();
+        let name = Path::new("untitled.lif.json");
+        let _drafts = [(); 2].map(|()| left_behind(state.path(), name));
+        let mut files = open_files();
+        let services = TestServices::with([]);
+        *services.state.lock().unwrap() = Some(state.path().into());
+        files.context.services = services;
+        files.open_left_drafts("cpu", &SceneOptions::default());
+        let names: Vec<String> = files.layers()[2..].iter().map(Layer::name).collect();
+        assert_eq!(names, ["untitled.lif.json", "untitled-2.lif.json"]);
     }
 }

@@ -136,6 +136,15 @@ macro_rules! value {
 
 pub(crate) use {say, value};
 
+/// A count with thousands separators: `1,020,350`.
+pub(crate) fn grouped(n: u64) -> String {
+    let english = text_format::count(n);
+    match language() {
+        Language::English => english,
+        Language::German => english.replace(',', "."),
+    }
+}
+
 /// A count of things: `1 step`, `1,020 steps`. The thing is a word of the table of nouns.
 pub(crate) fn counted(n: u64, thing: &str) -> String {
     match language() {
@@ -144,7 +153,7 @@ pub(crate) fn counted(n: u64, thing: &str) -> String {
             let noun = GERMAN_NOUNS.get(thing).copied();
             let (one, more) = noun.unwrap_or((thing, thing));
             let word = if n == 1 { one } else { more };
-            format!("{} {word}", text_format::count(n).replace(',', "."))
+            format!("{} {word}", grouped(n))
         }
     }
 }
@@ -183,6 +192,7 @@ mod tests {
         assert_eq!(saved, "a {b} ist gespeichert");
         assert_eq!(counted(1, "path"), "1 Weg");
         assert_eq!(counted(1020, "path"), "1.020 Wege");
+        assert_eq!(grouped(1_020_350), "1.020.350");
         set_language(Language::English);
         assert_eq!(counted(1020, "path"), "1,020 paths");
     }

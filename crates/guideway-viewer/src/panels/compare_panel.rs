@@ -1,13 +1,12 @@
 //! The comparison: the other file, and the list of what is gone, new and changed.
 
 use eframe::egui::{ComboBox, Link, RichText, ScrollArea, Ui};
-use guideway_document::text_format;
 
 use crate::action::Action;
 use crate::canvas::change_color;
 use crate::compare::{ChangeKind, Changed, Comparison};
 use crate::files::OpenFiles;
-use crate::language::{say, t};
+use crate::language::{grouped, say, t};
 
 const ROW_HEIGHT: f32 = 18.0;
 
@@ -61,7 +60,7 @@ fn show_counts(ui: &mut Ui, changed: &Changed) {
         (ChangeKind::New, t("new")),
         (ChangeKind::Changed, t("changed")),
     ] {
-        let count = text_format::count(changed.count(kind) as u64);
+        let count = grouped(changed.count(kind) as u64);
         let text = RichText::new(format!("{count} {name}"));
         ui.label(text.color(change_color(kind)));
     }

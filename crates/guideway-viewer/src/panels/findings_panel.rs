@@ -3,7 +3,7 @@
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{CollapsingHeader, Color32, DragValue, RichText, TextFormat, Ui, WidgetText};
 use guideway_document::{
-    Document, Element, ProposedFix, fix_all, fixes, has_fixes, locate, located, text_format,
+    Document, Element, ProposedFix, fix_all, fixes, has_fixes, locate, located,
 };
 use guideway_layout::{CheckOptions, Code, Diagnostic, Diagnostics, FindingKind};
 
@@ -11,7 +11,7 @@ use crate::action::Action;
 use crate::canvas::severity_color;
 use crate::editing::{EditTask, MarkedSeverities, SEVERITIES};
 use crate::files::{Layer, OpenFiles};
-use crate::language::{counted, say, t};
+use crate::language::{counted, grouped, say, t};
 
 /// Longest list of findings of one kind.
 const MAX_LISTED: usize = 200;
@@ -48,7 +48,7 @@ impl FindingsPanel {
         add(t("Findings"), Color32::PLACEHOLDER);
         for (count, severity) in counts.into_iter().zip(SEVERITIES) {
             if count > 0 {
-                let count = format!(" {}", text_format::count(count));
+                let count = format!(" {}", grouped(count));
                 add(&count, severity_color(severity));
             }
         }
@@ -136,7 +136,7 @@ impl KindList<'_> {
             severity,
             count,
         } = self.kind;
-        let title = format!("{} ({})", t(&title_of(code)), text_format::count(count));
+        let title = format!("{} ({})", t(&title_of(code)), grouped(count));
         let title = RichText::new(title).color(severity_color(severity));
         let header = CollapsingHeader::new(title).id_salt((code, severity as u8));
         header.show(ui, |ui| {
@@ -150,7 +150,7 @@ impl KindList<'_> {
             }
             let more = count.saturating_sub(MAX_LISTED as u64);
             if more > 0 {
-                ui.small(say!("and {count} more", count = text_format::count(more)));
+                ui.small(say!("and {count} more", count = grouped(more)));
             }
         });
     }

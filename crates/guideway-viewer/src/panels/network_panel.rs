@@ -1,13 +1,13 @@
 //! The network of a drawing: what is joined, cut, named and left, before it is made.
 
 use eframe::egui::{Button, ComboBox, DragValue, Grid, Label, RichText, ScrollArea, Ui};
-use guideway_document::text_format::{count, single_line};
+use guideway_document::text_format::single_line;
 use guideway_network::{DirectionRule, DrawingSources, NoteSource};
 
 use crate::action::Action;
 use crate::canvas::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 use crate::files::OpenFiles;
-use crate::language::{say, t};
+use crate::language::{grouped, say, t};
 use crate::network_draft::{NetworkDraft, toggle_source};
 
 const SPEEDS_M_S: std::ops::RangeInclusive<f64> = 0.01..=100.0;
@@ -94,7 +94,7 @@ fn show_layer(ui: &mut Ui, draft: &mut NetworkDraft, name: &str, paths: u64) {
         "" => t("(no layer)").to_owned(),
         name => single_line(name, NAME_CHARS),
     };
-    ui.checkbox(&mut is_used, format!("{shown} ({})", count(paths)));
+    ui.checkbox(&mut is_used, format!("{shown} ({})", grouped(paths)));
     rule.leave = !is_used;
     let mut has_speed = rule.max_speed_m_s.is_some();
     ui.checkbox(&mut has_speed, t("speed"));
@@ -138,7 +138,7 @@ fn show_notes(ui: &mut Ui, what: &str, chosen: &mut Vec<NoteSource>, sources: &D
             for (source, notes) in &sources.notes {
                 let name = single_line(&source.to_string(), NAME_CHARS);
                 let mut is_chosen = chosen.contains(source);
-                let text = format!("{name} ({})", count(*notes));
+                let text = format!("{name} ({})", grouped(*notes));
                 if ui.checkbox(&mut is_chosen, text).changed() {
                     toggle_source(chosen, source);
                 }

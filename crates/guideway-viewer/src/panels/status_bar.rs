@@ -10,7 +10,7 @@ use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::OpenFiles;
-use crate::language::{say, t};
+use crate::language::{grouped, say, t};
 use crate::tools::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
 
 /// Size of a point of a screen at 96 points per inch, in meters.
@@ -109,10 +109,7 @@ fn scale_text(points_per_m: f64) -> String {
         return format!("{:.0}:1", 1.0 / exact);
     }
     let unit = 10f64.powf(exact.log10().floor() - 1.0).max(1.0);
-    format!(
-        "1:{}",
-        text_format::count(((exact / unit).round() * unit) as u64)
-    )
+    format!("1:{}", grouped(((exact / unit).round() * unit) as u64))
 }
 
 /// The path under the pointer, and its reverse path.

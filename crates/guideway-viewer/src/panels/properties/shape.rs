@@ -5,7 +5,7 @@ use guideway_document::{PathSet, text_format};
 use guideway_layout::Layout;
 
 use crate::canvas::shape_text;
-use crate::language::say;
+use crate::language::{grouped, say};
 
 /// Most paths whose lengths are added up: more would delay the click that selects them.
 const MAX_MEASURED: u64 = 20_000;
@@ -29,7 +29,7 @@ impl PathShape {
             return Self { text, bends };
         }
         let text = if rows.len() > MAX_MEASURED {
-            let most = text_format::count(MAX_MEASURED);
+            let most = grouped(MAX_MEASURED);
             say!(
                 "select at most {most} paths to see the sum of their lengths",
                 most
