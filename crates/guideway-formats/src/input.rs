@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use guideway_layout::SourceFile;
 #[cfg(unix)]
 use guideway_layout::try_reserve;
 
@@ -26,6 +27,15 @@ impl Input<'_> {
             Self::Bytes(bytes) => bytes.len(),
             #[cfg(unix)]
             Self::File(file) => file.len(),
+        }
+    }
+
+    /// The file, to be read again later; `None` if the bytes are in memory.
+    pub(crate) fn source_file(&self) -> Option<SourceFile> {
+        match self {
+            Self::Bytes(_) => None,
+            #[cfg(unix)]
+            Self::File(file) => file.source_file(),
         }
     }
 

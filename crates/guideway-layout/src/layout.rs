@@ -6,7 +6,7 @@ use guideway_spline::{Affine, Point};
 
 use crate::{
     Attributes, Block, Diagnostics, GeoOrigin, Level, Nodes, Note, PathRef, Paths, Refused,
-    Stations, VehicleType, Zone,
+    SourceFile, Stations, VehicleType, Zone,
 };
 
 /// A layout, as read from one file or merged from several.
@@ -175,9 +175,18 @@ pub struct Provenance {
     pub counts: Vec<(String, u64)>,
     /// Text of the file, for formats whose writer copies what did not change.
     pub text: Option<Arc<str>>,
+    /// The file, if its text is too large to keep.
+    pub file: Option<SourceFile>,
 }
 
 impl Provenance {
+    /// Text of the file, read again if it is too large to keep; `None` if the format has no use for
+    /// it, or the file changed since.
+    pub fn source_text(&self) -> Option<Arc<str>> {
+        let read_again = || self.file.as_ref()?.read().map(Into::into);
+        self.text.clone().or_else(read_again)
+    }
+
     /// Returns `true` if all formats of the files are among these.
     pub(crate) fn is_all_of(&self, formats: &[&str]) -> bool {
         let mut own = self.format.split(" + ");

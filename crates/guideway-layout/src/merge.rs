@@ -241,5 +241,6 @@ fn provenance(layouts: &[Layout]) -> Provenance {
         counts,
         // A writer could copy the fields of one source only.
         text: None,
+        file: None,
     }
 }

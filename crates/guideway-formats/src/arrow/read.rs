@@ -292,6 +292,7 @@ impl<'a> TableReader<'a> {
                 ("record batches".into(), self.batch_count),
             ],
             text: None,
+            file: None,
         };
         layout.diagnostics = diagnostics;
         Ok(layout)

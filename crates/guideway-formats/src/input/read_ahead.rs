@@ -15,6 +15,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use guideway_layout::SourceFile;
+
 /// Bytes per read: the page cache then holds few large folios, which are cheaper to look up than
 /// many small ones.
 const CHUNK_BYTES: usize = 1 << 20;
@@ -63,6 +65,11 @@ impl ReadAheadFile {
 
     pub(super) fn len(&self) -> usize {
         self.len
+    }
+
+    /// The file, to be read again later; `None` if the system does not allow it.
+    pub(super) fn source_file(&self) -> Option<SourceFile> {
+        SourceFile::new(self.file.try_clone().ok()?).ok()
     }
 
     /// Starts a thread that reads the file from beginning to end, so that the disk never waits for

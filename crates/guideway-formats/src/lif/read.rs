@@ -1,6 +1,6 @@
 //! LIF reader: reads the skeleton of a file, then its nodes, edges and stations part by part, and
-//! maps them to a layout. The layout keeps the text, so that a save changes the edited parts only,
-//! unless it is large: then no more than parts of it are in memory.
+//! maps them to a layout. The layout keeps the text, so that a save changes the edited parts only.
+//! If it is large, no more than parts of it are in memory, and a save reads the file again.
 
 use guideway_layout::{Layout, Limits, Place};
 
@@ -22,6 +22,24 @@ const MAX_KEYS: usize = 5;
 /// # Errors
 /// When the text is not JSON, its root is not that of LIF, or a limit is exceeded.
 pub(crate) fn read(source: Source<'_>, input: &Input<'_>) -> Result<Layout, ReadError> {
+    let file = input.source_file();
+    let kept = match input {
+        Input::Bytes(bytes) if bytes.len() <= MAX_KEPT_BYTES => Some(*bytes),
+        _ => None,
+    };
+    let mut layout = read_elements(source, input, kept.is_some())?;
+    let text = kept.and_then(|bytes| std::str::from_utf8(bytes).ok());
+    layout.provenance.text = text.map(Into::into);
+    layout.provenance.file = file;
+    Ok(layout)
+}
+
+/// Reads a file; `keeps_bytes` keeps the first byte of each element instead of its line.
+fn read_elements(
+    source: Source<'_>,
+    input: &Input<'_>,
+    keeps_bytes: bool,
+) -> Result<Layout, ReadError> {
     input.read_ahead();
     let Some(skeleton) = Skeleton::scan(&source, input, is_long_array)? else {
         return Err(syntax_error(&source, input, None));
@@ -30,19 +48,13 @@ pub(crate) fn read(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Read
         return Err(syntax_error(&source, input, None));
     };
     let root = lif_root(&source, root)?;
-    let kept = match input {
-        Input::Bytes(bytes) if bytes.len() <= MAX_KEPT_BYTES => Some(*bytes),
-        _ => None,
-    };
-    let mapper = Mapper::new(source, input, &skeleton, kept.is_some());
+    let mapper = Mapper::new(source, input, &skeleton, keeps_bytes);
     let mut layout = mapper.map(&root).map_err(|fault| match fault {
         ArrayFault::Reader(error) => error,
         ArrayFault::Input(problem) => source.fail(problem),
         ArrayFault::Separator => syntax_error(&source, input, None),
         ArrayFault::Item(error, at) => syntax_error(&source, input, Some((error, at))),
     })?;
-    let text = kept.and_then(|bytes| std::str::from_utf8(bytes).ok());
-    layout.provenance.text = text.map(Into::into);
     json::find_skeleton_lines(&mut layout, &skeleton);
     Ok(layout)
 }
@@ -108,8 +120,8 @@ fn syntax_error(
     })
 }
 
-/// Reads the kept text of a layout again, without limits.
-pub(super) fn read_again(layout: &Layout) -> Option<Layout> {
+/// Reads the source text of a layout again, without limits.
+pub(super) fn read_again(layout: &Layout, text: &str) -> Option<Layout> {
     let options = ReadOptions {
         limits: Limits {
             file_bytes: u64::MAX,
@@ -125,8 +137,7 @@ pub(super) fn read_again(layout: &Layout) -> Option<Layout> {
         name: &layout.provenance.source,
         options: &options,
     };
-    let text = layout.provenance.text.as_deref()?;
-    read(source, &Input::Bytes(text.as_bytes())).ok()
+    read_elements(source, &Input::Bytes(text.as_bytes()), true).ok()
 }
 
 fn not_lif(element: &str, expected: &str, found: String) -> Problem {
@@ -142,11 +153,14 @@ fn not_lif(element: &str, expected: &str, found: String) -> Problem {
 mod tests {
     use std::fmt::Write;
     use std::fs::{self, File};
+    use std::time::SystemTime;
 
     use guideway_layout::{CompareOptions, LineIndex, differences};
+    use guideway_spline::Point;
 
     use super::*;
     use crate::input::ReadAheadFile;
+    use crate::lif::{Version, WriteOptions, write_layout};
 
     /// Reads a text from memory and from a file, part by part.
     fn both(text: &str) -> [Result<Layout, ReadError>; 2] {
@@ -239,6 +253,30 @@ mod tests {
             let (line, column) = place(element);
             assert_eq!((u64::from(line), u64::from(column)), at(byte), "{element}");
         }
+    }
+
+    #[test]
+    fn file_too_large_to_keep_is_saved_in_place() {
+        let text = site(300);
+        let [Ok(kept), Ok(in_parts)] = both(&text) else {
+            panic!("a good file");
+        };
+        let saved = |layout: &Layout| {
+            let mut out = Vec::new();
+            let options = WriteOptions {
+                version: Version::V2,
+                exported: SystemTime::UNIX_EPOCH,
+            };
+            write_layout(layout, &mut out, &options).unwrap();
+            String::from_utf8(out).unwrap()
+        };
+        assert!(saved(&in_parts) == text, "the same bytes");
+        let [kept, in_parts] = [kept, in_parts].map(|mut layout| {
+            let moved = layout.nodes.position_m(7) + Point::new(0.5, 0.0);
+            layout.nodes.set_position_m(7, moved);
+            saved(&layout)
+        });
+        assert!(kept == in_parts && kept != text, "one number differs");
     }
 
     #[test]

@@ -34,7 +34,7 @@ use crate::Losses;
 use crate::json::Splices;
 
 /// Saves a layout into the text of its file. Returns the losses; `None`, and nothing is written, if
-/// the layout does not keep the text, or has other levels.
+/// there is no text, or the layout has other levels.
 ///
 /// # Errors
 /// When `out` fails.
@@ -43,10 +43,11 @@ pub(super) fn save(
     out: &mut impl Write,
     version: Version,
 ) -> io::Result<Option<Losses>> {
-    let Some(text) = layout.provenance.text.as_deref() else {
+    let Some(text) = layout.provenance.source_text() else {
         return Ok(None);
     };
-    let Some(original) = read_again(layout) else {
+    let text = &*text;
+    let Some(original) = read_again(layout, text) else {
         return Ok(None);
     };
     let is_empty = layout.levels.is_empty()
