@@ -115,6 +115,11 @@ impl VisibleAreas {
     ) -> Result<Self, ComposeError> {
         let mut tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(MIN_TOLERANCE_M);
         let coarsest_m = f64::from(view.size().height().max(view.size().width())) / view.px_per_m();
+        // Counting polygons takes far less time than uniting them.
+        while tolerance_m <= coarsest_m && has_too_many(layout, rows, vehicle, (view, tolerance_m))
+        {
+            tolerance_m *= 2.0;
+        }
         let by_path = loop {
             let cost = Cost::new(budget);
             let by_path = outlines_by_path(layout, rows, vehicle, (view, tolerance_m), &cost);
@@ -183,6 +188,26 @@ impl VisibleAreas {
 struct Outline {
     polygons: u64,
     contours: Vec<Vec<Point<f64>>>,
+}
+
+/// Returns `true` if the areas within a view have more polygons than a picture may have.
+fn has_too_many(
+    layout: &Layout,
+    rows: &[u32],
+    vehicle: EnvelopeSource,
+    (view, tolerance_m): (&View, f64),
+) -> bool {
+    let shown = view.world_bounds();
+    let count = AtomicU64::new(0);
+    let may_add = |path: u32| {
+        if let Ok(sweep) = vehicle.sweep(layout, path as usize) {
+            let mut polygons = 0;
+            sweep.polygons(tolerance_m, Some(shown), &mut |_| polygons += 1);
+            count.fetch_add(polygons, Ordering::Relaxed);
+        }
+        count.load(Ordering::Relaxed) <= MOST_POLYGONS
+    };
+    !rows.par_iter().all(|&path| may_add(path))
 }
 
 /// The outline of each path within a view, of polygons to a tolerance in meters.
