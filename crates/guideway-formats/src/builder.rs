@@ -375,13 +375,15 @@ fn printable_place(at: PlaceFn<'_>, byte: Option<usize>) -> Place {
     place
 }
 
-/// Keeps the place of the element of a row, or its first byte, if the column can hold it. Returns
-/// the row.
+/// Keeps the place of the element of a row: its line, and its first byte if the column can hold it.
+/// Returns the row.
 fn mark(source: &mut SourceSpans, row: u32, place: (Option<usize>, Option<TextPosition>)) -> u32 {
-    match place {
-        (_, Some(position)) => source.set_position(row as usize, position),
-        (Some(byte), None) if byte < u32::MAX as usize => source.set(row as usize, byte),
-        _ => {}
+    let (byte, position) = place;
+    if let Some(position) = position {
+        source.set_position(row as usize, position);
+    }
+    if let Some(byte) = byte.filter(|&byte| byte < u32::MAX as usize) {
+        source.set(row as usize, byte);
     }
     row
 }

@@ -5,9 +5,9 @@ use crate::{LineIndex, TextPosition};
 /// Start of a row without a place in the text.
 const NONE: u32 = u32::MAX;
 
-/// First byte of each row's object in [`Provenance::text`](crate::Provenance::text), or, of a text
-/// that is not kept, its line and column. A writer of the same format copies objects that did not
-/// change, byte by byte.
+/// First byte of each row's object in the
+/// [source text](crate::Provenance::source_text) and, if that is not kept, its line and column. A
+/// writer of the same format copies objects that did not change, byte by byte.
 ///
 /// Rows that were added since the read have no place. Rows past the end have none either.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,9 +27,12 @@ impl SourceSpans {
     /// Sets the first byte of the object of a row.
     ///
     /// # Panics
-    /// When `start` does not fit `u32`; texts of that size are not kept.
+    /// When `start` does not fit `u32`.
     pub fn set(&mut self, row: usize, start: usize) {
-        assert!(start < NONE as usize, "a kept text is smaller than 4 GiB");
+        assert!(
+            start < NONE as usize,
+            "a text with places is smaller than 4 GiB"
+        );
         if self.starts.len() <= row {
             self.starts.resize(row + 1, NONE);
         }

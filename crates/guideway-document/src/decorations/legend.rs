@@ -231,7 +231,7 @@ mod tests {
         let (list, _) = super::legend(&legend, size, 0.0, Corner::UpperLeft, &style).unwrap();
         let text = &list.texts[1].text;
         assert!(text.ends_with(" (1,234)"), "{text}");
-        assert!(text.chars().count() <= MAX_LABEL_CHARS + " (1,234)".len());
+        assert!(text.chars().count() <= MAX_LABEL_CHARS + "… (1,234)".chars().count());
     }
 
     #[test]

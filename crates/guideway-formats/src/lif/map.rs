@@ -123,10 +123,8 @@ impl Mapper<'_> {
         level: u32,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
-        match self.keeps_text {
-            true => self.builder.element_byte = Some(item.start),
-            false => self.builder.element_position = Some(position),
-        }
+        self.builder.element_byte = Some(item.start);
+        self.builder.element_position = (!self.keeps_text).then_some(position);
         let before = self.builder.layout.diagnostics.iter().count();
         K::map(self, item, level, at)?;
         for finding in self.builder.layout.diagnostics.iter_mut().skip(before) {

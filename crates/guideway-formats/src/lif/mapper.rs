@@ -35,7 +35,7 @@ pub(super) struct Mapper<'a> {
     pub(super) counts: Counts,
     pub(super) input: &'a Input<'a>,
     pub(super) skeleton: &'a Skeleton,
-    /// True if the layout keeps the text, so that rows keep their bytes instead of their lines.
+    /// True if the layout keeps the text, from which the lines of rows follow.
     pub(super) keeps_text: bool,
 }
 

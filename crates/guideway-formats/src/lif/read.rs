@@ -34,11 +34,11 @@ pub(crate) fn read(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Read
     Ok(layout)
 }
 
-/// Reads a file; `keeps_bytes` keeps the first byte of each element instead of its line.
+/// Reads a file. Rows keep their first byte and, unless the layout `keeps_text`, their line.
 fn read_elements(
     source: Source<'_>,
     input: &Input<'_>,
-    keeps_bytes: bool,
+    keeps_text: bool,
 ) -> Result<Layout, ReadError> {
     input.read_ahead();
     let Some(skeleton) = Skeleton::scan(&source, input, is_long_array)? else {
@@ -48,7 +48,7 @@ fn read_elements(
         return Err(syntax_error(&source, input, None));
     };
     let root = lif_root(&source, root)?;
-    let mapper = Mapper::new(source, input, &skeleton, keeps_bytes);
+    let mapper = Mapper::new(source, input, &skeleton, keeps_text);
     let mut layout = mapper.map(&root).map_err(|fault| match fault {
         ArrayFault::Reader(error) => error,
         ArrayFault::Input(problem) => source.fail(problem),
