@@ -264,7 +264,7 @@ mod tests {
         let saved = |layout: &Layout| {
             let mut out = Vec::new();
             let options = WriteOptions {
-                version: Version::V2,
+                version: Version::V1,
                 exported: SystemTime::UNIX_EPOCH,
             };
             write_layout(layout, &mut out, &options).unwrap();
