@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use guideway_scene::{LineRule, RenderError, Rgba, Shading, Style, View};
+use guideway_scene::{LineRule, NoOpaqueColor, RenderError, Rgba, Scene, Shading, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use crate::local::LocalScene;
@@ -25,15 +25,6 @@ pub(super) struct FrameContext {
     params: ViewParams,
 }
 
-/// The widths of the paths of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Widths {
-    /// One width for all paths; `None` takes the width of the line rule.
-    One(Option<f32>),
-    /// Different widths.
-    Several,
-}
-
 impl FrameContext {
     /// Checks a view and computes the parameters that all its dispatches share.
     ///
@@ -48,39 +39,8 @@ impl FrameContext {
         grid: GridParams,
         options: &GridOptions,
     ) -> Result<Self, RenderError> {
-        if style.shading != Shading::Color {
-            return Err(RenderError::unsupported(
-                NAME,
-                "shading by density",
-                "Use color shading, or `--method cpu`.",
-            ));
-        }
+        let radius_m = radius_m(NAME, view, style, widths, &local)?;
         let px_per_m = view.px_per_m();
-        let width_m = match widths {
-            Widths::One(width_m) => width_m,
-            // This rule gives all paths the same width and ignores their own.
-            Widths::Several if style.line_rule == LineRule::Thesis => None,
-            Widths::Several => {
-                return Err(RenderError::unsupported(
-                    NAME,
-                    "paths of several widths",
-                    "Use the line rule of the thesis, or `--method cpu`.",
-                ));
-            }
-        };
-        let rounding_px = local.rounding_px(px_per_m);
-        if rounding_px > MAX_ROUNDING_PX {
-            return Err(RenderError::unsupported(
-                NAME,
-                format!(
-                    "this view: at {px_per_m} pixels per meter the single precision of the device \
-                     may draw lines {rounding_px:.2} pixels off; the limit is {MAX_ROUNDING_PX}"
-                ),
-                "Zoom out, draw a part of the layout, or use `--method cpu`.",
-            ));
-        }
-        // derived: 1e18 exceeds every distance in a scene, and its square does not overflow `f32`.
-        let radius_m = (style.line_rule.radius_px(width_m, px_per_m) / px_per_m).clamp(0.0, 1e18);
         let reach_m = radius_m + options.antialias.margin_px() / px_per_m;
         let (margin_m, excess_m) = match options.binning {
             Binning::LineBox => (0.0, 0.0),
@@ -155,7 +115,89 @@ impl FrameContext {
     }
 }
 
+/// The widths of the paths of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Widths {
+    /// One width for all paths; `None` takes the width of the line rule.
+    One(Option<f32>),
+    /// Different widths.
+    Several,
+}
+
+impl Widths {
+    /// The widths of the drawn paths.
+    pub fn of(scene: &Scene) -> Self {
+        let mut widths = scene.draw_order().iter().map(|&path| scene.width_m(path));
+        let first = widths.next().flatten();
+        if widths.all(|width| width == first) {
+            Self::One(first)
+        } else {
+            Self::Several
+        }
+    }
+}
+
+/// The one color of all paths.
+///
+/// # Errors
+/// When paths have several colors or translucent ones.
+pub fn opaque_color(method: &'static str, scene: &Scene) -> Result<Rgba, RenderError> {
+    scene.opaque_color().map_err(|error| {
+        let remedy = match error {
+            NoOpaqueColor::Several => "Remove --color-by, or use `--method cpu`.",
+            NoOpaqueColor::Translucent => "Use an opaque color, or `--method cpu`.",
+        };
+        RenderError::unsupported(method, error.to_string(), remedy)
+    })
+}
+
+/// The radius of all strokes in a view.
+///
+/// # Errors
+/// When the style or the widths are unsupported, or `f32` is too coarse for the scale.
+pub fn radius_m(
+    method: &'static str,
+    view: &View,
+    style: &Style,
+    widths: Widths,
+    local: &LocalScene,
+) -> Result<f64, RenderError> {
+    if style.shading != Shading::Color {
+        return Err(RenderError::unsupported(
+            method,
+            "shading by density",
+            "Use color shading, or `--method cpu`.",
+        ));
+    }
+    let px_per_m = view.px_per_m();
+    let width_m = match widths {
+        Widths::One(width_m) => width_m,
+        // This rule gives all paths the same width and ignores their own.
+        Widths::Several if style.line_rule == LineRule::Thesis => None,
+        Widths::Several => {
+            return Err(RenderError::unsupported(
+                method,
+                "paths of several widths",
+                "Use the line rule of the thesis, or `--method cpu`.",
+            ));
+        }
+    };
+    let rounding_px = local.rounding_px(px_per_m);
+    if rounding_px > MAX_ROUNDING_PX {
+        return Err(RenderError::unsupported(
+            method,
+            format!(
+                "this view: at {px_per_m} pixels per meter the single precision of the device \
+                 may draw lines {rounding_px:.2} pixels off; the limit is {MAX_ROUNDING_PX}"
+            ),
+            "Zoom out, draw a part of the layout, or use `--method cpu`.",
+        ));
+    }
+    // derived: 1e18 exceeds every distance in a scene, and its square does not overflow `f32`.
+    Ok((style.line_rule.radius_px(width_m, px_per_m) / px_per_m).clamp(0.0, 1e18))
+}
+
 /// Packs a color into the byte order of a picture.
-fn packed_rgba(color: Rgba) -> u32 {
+pub fn packed_rgba(color: Rgba) -> u32 {
     u32::from_le_bytes([color.r, color.g, color.b, color.a])
 }

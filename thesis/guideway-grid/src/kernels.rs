@@ -5,6 +5,7 @@ use crate::params::{
     ADD_SUMS, BIN, COUNT, HALF_EDGE_PX, PIXELS_NEAREST, PIXELS_SAMPLES, PREFIX_NAIVE, SAMPLE,
     SCAN_BLOCKS, SCAN_SUMS, SCAN_THREADS, TILE_PX, WORKGROUP,
 };
+use crate::picture_buffers::Purpose;
 use guideway_gpu::device::{DeviceError, Gpu, Kernel};
 
 /// All shaders of a variant.
@@ -13,9 +14,9 @@ pub(super) struct Kernels {
     pub(super) count: Kernel,
     pub(super) prefix: Prefix,
     pub(super) bin: Kernel,
-    pub(super) pixels: Kernel,
+    pixels: Kernel,
     /// Like `pixels`, and counts the work.
-    pub(super) pixels_with_counts: Kernel,
+    pixels_with_counts: Kernel,
 }
 
 /// Shaders of the prefix sum.
@@ -54,6 +55,16 @@ impl Kernels {
             pixels: pixels(gpu, options, false)?,
             pixels_with_counts: pixels(gpu, options, true)?,
         })
+    }
+}
+
+impl Kernels {
+    /// The shader that computes a result of pixels.
+    pub(super) fn for_result(&self, purpose: Purpose) -> &Kernel {
+        match purpose {
+            Purpose::Picture => &self.pixels,
+            Purpose::Work => &self.pixels_with_counts,
+        }
     }
 }
 

@@ -48,3 +48,25 @@ mod variant;
 pub use error::{GridError, OptionsError};
 pub use method::Grid;
 pub use options::{Antialias, Binning, GridOptions, PrefixSum};
+
+/// The parts that other per-pixel methods share: coordinates, checks of views, coverage, buffers of
+/// pictures and the scan.
+pub mod per_pixel {
+    pub use crate::frame_context::{Widths, opaque_color, packed_rgba, radius_m};
+    pub use crate::local::LocalScene;
+    pub use crate::params::{
+        ADD_SUMS, HALF_EDGE_PX, SCAN_BLOCKS, SCAN_SUMS, SCAN_THREADS, TILE_PX,
+    };
+    pub use crate::picture_buffers::{PIXEL_BYTES, PictureBuffers, PictureLayout, Purpose};
+
+    /// Shader text: blends a color over the background.
+    pub const BLEND: &str = include_str!("shaders/blend.wgsl");
+    /// Shader text: a point of a segment.
+    pub const CURVE: &str = include_str!("shaders/curve.wgsl");
+    /// Shader text: the distance of a point to a line.
+    pub const LINE: &str = include_str!("shaders/line.wgsl");
+    /// Shader text: coverage from the distance to the nearest line.
+    pub const NEAREST: &str = include_str!("shaders/nearest.wgsl");
+    /// Shader text: coverage from 32 samples per pixel.
+    pub const SAMPLES: &str = include_str!("shaders/samples.wgsl");
+}

@@ -13,21 +13,22 @@ const PLANNED_PX: (u32, u32) = (1920, 1080);
 
 /// Local origin and extent of a scene.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LocalScene {
+pub struct LocalScene {
     /// Origin of local coordinates, in world coordinates.
     center_m: Point<f64>,
     /// Bounds of the curves, in local coordinates.
-    pub(super) bounds_m: Bounds<f64>,
+    pub bounds_m: Bounds<f64>,
     /// Largest absolute local coordinate of a control point.
     reach_m: f64,
     /// Longest side of the bounds of one segment's control points.
     segment_m: f64,
-    pub(super) segments: u64,
+    /// Segments of all drawn paths.
+    pub segments: u64,
 }
 
 impl LocalScene {
     /// Measures a scene.
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub fn of(scene: &Scene) -> Self {
         let origin = Point::new(0.0, 0.0);
         let empty = Bounds {
             min: origin,
@@ -50,17 +51,30 @@ impl LocalScene {
         let runs = drawn.flat_map(|&path| paths.get(path as usize).runs());
         for segment in runs.flat_map(|run| run.segments()) {
             if let Some(hull) = Bounds::of_points(segment.map(|p| p - center_m)) {
-                let distances = [hull.min.x, hull.min.y, hull.max.x, hull.max.y].map(f64::abs);
-                local.reach_m = distances.into_iter().fold(local.reach_m, f64::max);
-                local.segment_m = local.segment_m.max(hull.size().x).max(hull.size().y);
+                local.include_hull(hull);
             }
             local.segments += 1;
         }
         local
     }
 
+    /// Extends the bounds and the rounding error by the control points of a moved segment.
+    pub fn include_segment(&mut self, control_m: &[[f32; 2]; 4]) {
+        let point = |&[x, y]: &[f32; 2]| Point::new(f64::from(x), f64::from(y));
+        if let Some(hull) = Bounds::of_points(control_m.iter().map(point)) {
+            self.include_hull(hull);
+            self.bounds_m = self.bounds_m.union(hull);
+        }
+    }
+
+    fn include_hull(&mut self, hull: Bounds<f64>) {
+        let distances = [hull.min.x, hull.min.y, hull.max.x, hull.max.y].map(f64::abs);
+        self.reach_m = distances.into_iter().fold(self.reach_m, f64::max);
+        self.segment_m = self.segment_m.max(hull.size().x).max(hull.size().y);
+    }
+
     /// Converts a point to local coordinates.
-    pub(super) fn local_from_world(&self, point_m: Point<f64>) -> [f32; 2] {
+    pub fn local_from_world(&self, point_m: Point<f64>) -> [f32; 2] {
         let local = (point_m - self.center_m).to_f32();
         [local.x, local.y]
     }

@@ -59,7 +59,7 @@ pub enum Antialias {
 impl Antialias {
     /// Largest distance from a line's edge to the center of a pixel that the line changes, in
     /// pixels.
-    pub(super) fn margin_px(self) -> f64 {
+    pub fn margin_px(self) -> f64 {
         match self {
             Self::Smooth => f64::from(HALF_EDGE_PX),
             Self::None => 0.0,

@@ -7,11 +7,11 @@ use guideway_gpu::device::Source;
 /// Threads per workgroup of the shaders that process one item per thread.
 pub(super) const WORKGROUP: u32 = 64;
 /// Threads per workgroup of the scan; each thread has two cells of a block.
-pub(super) const SCAN_THREADS: u32 = 256;
+pub const SCAN_THREADS: u32 = 256;
 /// Side of a tile, the pixels of one workgroup.
-pub(super) const TILE_PX: u32 = 8;
+pub const TILE_PX: u32 = 8;
 /// Half the width of a smoothed edge, in pixels.
-pub(super) const HALF_EDGE_PX: f32 = 0.75;
+pub const HALF_EDGE_PX: f32 = 0.75;
 
 /// The open end of a range: all parts of an item's work, or all lines of a cell.
 pub(super) const ALL: u32 = u32::MAX;
@@ -77,7 +77,7 @@ macro_rules! wgsl {
 
 pub(super) const SAMPLE: Source = Source {
     name: "sample",
-    wgsl: wgsl!("items", "sample"),
+    wgsl: wgsl!("items", "curve", "sample"),
     bindings: &["items", "points_m", "first_points", "line_count", "lines_m"],
 };
 
@@ -93,19 +93,22 @@ pub(super) const PREFIX_NAIVE: Source = Source {
     bindings: &["items", "counts", "starts"],
 };
 
-pub(super) const SCAN_BLOCKS: Source = Source {
+/// Scans every block of counts on its own.
+pub const SCAN_BLOCKS: Source = Source {
     name: "scan of blocks",
     wgsl: wgsl!("scan", "scan_blocks"),
     bindings: &["counts", "starts", "block_sums"],
 };
 
-pub(super) const SCAN_SUMS: Source = Source {
+/// Scans the sums of the blocks.
+pub const SCAN_SUMS: Source = Source {
     name: "scan of sums",
     wgsl: wgsl!("scan", "scan_sums"),
     bindings: &["block_sums"],
 };
 
-pub(super) const ADD_SUMS: Source = Source {
+/// Adds to every block the sum of those before.
+pub const ADD_SUMS: Source = Source {
     name: "add sums",
     wgsl: wgsl!("add_sums"),
     bindings: &["starts", "block_sums"],
@@ -120,7 +123,7 @@ pub(super) const BIN: Source = Source {
 /// Coverage from the distance to the nearest line.
 pub(super) const PIXELS_NEAREST: Source = Source {
     name: "pixels",
-    wgsl: wgsl!("view", "cells", "line", "nearest", "pixels"),
+    wgsl: wgsl!("view", "cells", "line", "nearest", "blend", "pixels"),
     bindings: &[
         "view", "grid", "starts", "counts", "lists_m", "pixels", "work",
     ],
@@ -128,7 +131,7 @@ pub(super) const PIXELS_NEAREST: Source = Source {
 
 /// Coverage from 32 samples per pixel.
 pub(super) const PIXELS_SAMPLES: Source = Source {
-    wgsl: wgsl!("view", "cells", "line", "samples", "pixels"),
+    wgsl: wgsl!("view", "cells", "line", "samples", "blend", "pixels"),
     ..PIXELS_NEAREST
 };
 

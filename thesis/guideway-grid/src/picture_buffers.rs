@@ -2,81 +2,90 @@
 
 use std::ops::Range;
 
-use guideway_gpu::device::{Bindings, DeviceBuffer, Gpu, Kernel, Memory, READBACK_USAGE};
+use guideway_gpu::device::{Bindings, DeviceBuffer, DeviceError, Gpu, Memory, READBACK_USAGE};
 use guideway_scene::{FrameSize, RenderError};
 use wgpu::BufferUsages;
 
-use crate::chunk::Chunk;
-use crate::kernels::Kernels;
-use crate::params::ViewParams;
-use crate::variant::NAME;
-
-/// Bytes of a pixel: its state between passes, or its color.
-pub(super) const PIXEL_BYTES: u64 = size_of::<u32>() as u64;
-/// Bytes of the counters of a pixel: distance tests and cell look-ups.
-const WORK_BYTES: u64 = size_of::<[u32; 2]>() as u64;
+/// Bytes of a color.
+pub const PIXEL_BYTES: u64 = size_of::<u32>() as u64;
 
 /// The result that the buffers receive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Purpose {
+pub enum Purpose {
     /// The color per pixel.
     Picture,
-    /// The distance tests and cell look-ups per pixel.
+    /// The counted work per pixel.
     Work,
 }
 
-impl Purpose {
-    /// The shader that computes the result.
-    pub(super) fn kernel(self, kernels: &Kernels) -> &Kernel {
-        match self {
-            Self::Picture => &kernels.pixels,
-            Self::Work => &kernels.pixels_with_counts,
+/// Size of a picture, and what its buffers hold per pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct PictureLayout {
+    /// Size of the picture.
+    pub size: FrameSize,
+    /// The result to read back.
+    pub purpose: Purpose,
+    /// Bytes of the uniform buffer of the view.
+    pub view_bytes: u64,
+    /// Bytes per pixel of its color and of its state between passes.
+    pub state_bytes: u64,
+    /// Bytes per pixel of its counters.
+    pub work_bytes: u64,
+}
+
+impl PictureLayout {
+    fn fetched_bytes(&self) -> u64 {
+        match self.purpose {
+            Purpose::Picture => PIXEL_BYTES,
+            Purpose::Work => self.work_bytes,
         }
     }
 }
 
 /// Buffers for one size of picture.
-pub(super) struct PictureBuffers {
-    pub(super) size: FrameSize,
+pub struct PictureBuffers {
+    /// Sizes per pixel.
+    pub layout: PictureLayout,
     /// Rows per band; the last may have fewer.
     band_rows: u32,
-    pub(super) view: DeviceBuffer,
+    /// The uniform of the view.
+    pub view: DeviceBuffer,
     pixels: DeviceBuffer,
     work: DeviceBuffer,
-    pub(super) fetched: DeviceBuffer,
+    /// Receives the result.
+    pub fetched: DeviceBuffer,
     /// One per chunk.
-    pub(super) bindings: Vec<Bindings>,
-    pub(super) purpose: Purpose,
+    pub bindings: Vec<Bindings>,
 }
 
 impl PictureBuffers {
-    /// Allocates the buffers, with the most rows per band that fit.
+    /// Allocates the buffers, with the most rows per band that fit, and binds the view, the pixels
+    /// and the counters.
     ///
     /// # Errors
     /// When one row exceeds a binding of the device, or the budget.
-    pub(super) fn new(
+    pub fn new(
         gpu: &Gpu,
         memory: &mut Memory,
-        size: FrameSize,
-        purpose: Purpose,
-        kernels: &Kernels,
-        grid: &DeviceBuffer,
-        chunks: &[Chunk],
+        method: &'static str,
+        layout: PictureLayout,
+        bind: impl FnOnce(&[&DeviceBuffer; 3]) -> Result<Vec<Bindings>, DeviceError>,
     ) -> Result<Self, RenderError> {
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-        let view = memory.zeros("the view", size_of::<ViewParams>() as u64, uniform)?;
-        let (work_bytes, fetched_bytes) = match purpose {
-            Purpose::Picture => (0, PIXEL_BYTES),
-            Purpose::Work => (WORK_BYTES, WORK_BYTES),
-        };
-        let pixel_bytes = PIXEL_BYTES + work_bytes + fetched_bytes;
-        let width = u64::from(size.width());
-        let fit_binding = gpu.max_binding_bytes() / (width * fetched_bytes);
-        let fit_budget = memory.spare_bytes().saturating_sub(WORK_BYTES) / (width * pixel_bytes);
+        let view = memory.zeros("the view", layout.view_bytes, uniform)?;
+        let (state_bytes, work_bytes) = (layout.state_bytes, layout.work_bytes);
+        let fetched_bytes = layout.fetched_bytes();
+        let pixel_bytes = state_bytes + work_bytes + fetched_bytes;
+        let width = u64::from(layout.size.width());
+        let largest = state_bytes.max(work_bytes);
+        let fit_binding = gpu.max_binding_bytes() / (width * largest);
+        // A buffer cannot be empty.
+        let fit_budget = memory.spare_bytes().saturating_sub(2 * PIXEL_BYTES);
+        let fit_budget = fit_budget / (width * pixel_bytes);
         if fit_binding == 0 {
             return Err(RenderError::unsupported(
-                NAME,
+                method,
                 format!(
                     "rows of {width} pixels: a shader of this device can bind at most {} bytes",
                     gpu.max_binding_bytes()
@@ -85,46 +94,29 @@ impl PictureBuffers {
             ));
         }
         // When the budget holds no row, the allocation of one row fails and names the needed bytes.
-        let rows = fit_binding.min(fit_budget.max(1)).min(size.height().into());
-        let pixels = width * rows;
-        let pixel_buffer = memory.zeros("the pixels", pixels * PIXEL_BYTES, storage)?;
-        // A buffer cannot be empty.
-        let work = (pixels * work_bytes).max(WORK_BYTES);
+        let height = u64::from(layout.size.height());
+        let rows = fit_binding.min(fit_budget.max(1)).min(height);
+        let count = width * rows;
+        let pixels = memory.zeros("the pixels", count * state_bytes, storage)?;
+        let work = (count * work_bytes).max(2 * PIXEL_BYTES);
         let work = memory.zeros("the counted work", work, storage)?;
-        let fetched = memory.zeros(
-            "the picture read back",
-            pixels * fetched_bytes,
-            READBACK_USAGE,
-        )?;
-        let kernel = purpose.kernel(kernels);
-        let bind = |chunk: &Chunk| {
-            let buffers = [
-                &view,
-                grid,
-                &chunk.starts,
-                &chunk.counts,
-                &chunk.lists_m,
-                &pixel_buffer,
-                &work,
-            ];
-            kernel.bind(gpu, &buffers)
-        };
-        let bindings: Result<_, _> = chunks.iter().map(bind).collect();
+        let fetched = count * fetched_bytes;
+        let fetched = memory.zeros("the picture read back", fetched, READBACK_USAGE)?;
+        let bindings = bind(&[&view, &pixels, &work]);
         Ok(Self {
             bindings: bindings.map_err(|error| memory.device_error(&error))?,
-            size,
+            layout,
             band_rows: rows as u32,
             view,
-            pixels: pixel_buffer,
+            pixels,
             work,
             fetched,
-            purpose,
         })
     }
 
     /// The rows of each band, from the top.
-    pub(super) fn bands(&self) -> impl ExactSizeIterator<Item = Range<u32>> + use<> {
-        let (rows, height) = (self.band_rows, self.size.height());
+    pub fn bands(&self) -> impl ExactSizeIterator<Item = Range<u32>> + use<> {
+        let (rows, height) = (self.band_rows, self.layout.size.height());
         (0..height.div_ceil(rows)).map(move |band| {
             let first = band * rows;
             first..height.min(first + rows)
@@ -132,11 +124,11 @@ impl PictureBuffers {
     }
 
     /// The buffer to read back after each band, and its bytes per row.
-    pub(super) fn result(&self) -> (&DeviceBuffer, u64) {
-        let width = u64::from(self.size.width());
-        match self.purpose {
-            Purpose::Picture => (&self.pixels, width * PIXEL_BYTES),
-            Purpose::Work => (&self.work, width * WORK_BYTES),
+    pub fn result(&self) -> (&DeviceBuffer, u64) {
+        let row_bytes = u64::from(self.layout.size.width()) * self.layout.fetched_bytes();
+        match self.layout.purpose {
+            Purpose::Picture => (&self.pixels, row_bytes),
+            Purpose::Work => (&self.work, row_bytes),
         }
     }
 }

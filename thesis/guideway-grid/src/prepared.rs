@@ -8,26 +8,29 @@ use std::time::Instant;
 
 use guideway_gpu::device::{DeviceBuffer, Dispatch, Memory, Runner};
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, NoOpaqueColor, Preparation, Prepared, RenderError, Report,
-    Rgba, Scene, Stage, Style, View, Work, elapsed_ms,
+    Budget, Cancel, Frame, FrameSize, Preparation, Prepared, RenderError, Report, Rgba, Scene,
+    Stage, Style, View, Work, elapsed_ms,
 };
 use wgpu::BufferUsages;
 
 use crate::chunk::Chunk;
-use crate::frame_context::{FrameContext, Widths};
+use crate::frame_context::{FrameContext, Widths, opaque_color};
 use crate::grid_builder::{BuiltGrid, GridBuilder};
 use crate::local::LocalScene;
 use crate::options::Binning;
 use crate::pack::Packer;
-use crate::params::{GridParams, LINE_BYTES, WORKGROUP};
+use crate::params::{GridParams, LINE_BYTES, ViewParams, WORKGROUP};
 use crate::pass::Pass;
 use crate::pass_plan;
-use crate::picture_buffers::{PIXEL_BYTES, PictureBuffers, Purpose};
+use crate::picture_buffers::{PIXEL_BYTES, PictureBuffers, PictureLayout, Purpose};
 use crate::split::WorkSplitter;
 use crate::variant::{NAME, Variant};
 
 const BORDERS_NOTE: &str = "Cells list lines without their width, as in the thesis, so strokes are \
      cut at cell borders. Add option `radius` for whole strokes.";
+
+/// Bytes of the counters of a pixel: distance tests and cell look-ups.
+const WORK_BYTES: u64 = size_of::<[u32; 2]>() as u64;
 
 /// A scene with its grid, and the buffers of the last picture.
 pub(super) struct PreparedGrid {
@@ -45,16 +48,6 @@ pub(super) struct PreparedGrid {
     preparation: Preparation,
 }
 
-fn widths(scene: &Scene) -> Widths {
-    let mut widths = scene.draw_order().iter().map(|&path| scene.width_m(path));
-    let first = widths.next().flatten();
-    if widths.all(|width| width == first) {
-        Widths::One(first)
-    } else {
-        Widths::Several
-    }
-}
-
 impl PreparedGrid {
     /// Builds the grid of a scene on the device.
     ///
@@ -65,13 +58,7 @@ impl PreparedGrid {
         scene: Arc<Scene>,
         budget: &Budget,
     ) -> Result<Self, RenderError> {
-        let color = scene.opaque_color().map_err(|error| {
-            let remedy = match error {
-                NoOpaqueColor::Several => "Remove --color-by, or use `--method cpu`.",
-                NoOpaqueColor::Translucent => "Use an opaque color, or `--method cpu`.",
-            };
-            RenderError::unsupported(NAME, error.to_string(), remedy)
-        })?;
+        let color = opaque_color(NAME, &scene)?;
         let start = Instant::now();
         let local = LocalScene::of(&scene);
         let grid = local.grid(&variant.options);
@@ -116,7 +103,7 @@ impl PreparedGrid {
             },
         };
         Ok(Self {
-            widths: widths(&scene),
+            widths: Widths::of(&scene),
             color,
             variant,
             scene,
@@ -140,18 +127,35 @@ impl PreparedGrid {
         // To stay within the budget, buffers of another size are freed before new ones are made.
         if let Some(buffers) = self.buffers.take()
             && purpose == Purpose::Picture
-            && buffers.size == size
+            && buffers.layout.size == size
         {
             return Ok(buffers);
         }
-        PictureBuffers::new(
-            &self.variant.gpu,
-            &mut self.memory,
+        let layout = PictureLayout {
             size,
             purpose,
-            &self.variant.kernels,
-            &self.grid_buffer,
-            &self.chunks,
+            view_bytes: size_of::<ViewParams>() as u64,
+            state_bytes: PIXEL_BYTES,
+            work_bytes: match purpose {
+                Purpose::Picture => 0,
+                Purpose::Work => WORK_BYTES,
+            },
+        };
+        let (gpu, chunks, grid) = (&self.variant.gpu, &self.chunks, &self.grid_buffer);
+        let kernel = self.variant.kernels.for_result(purpose);
+        PictureBuffers::new(
+            gpu,
+            &mut self.memory,
+            NAME,
+            layout,
+            |&[view, pixels, work]| {
+                let bind = |chunk: &Chunk| {
+                    let (starts, counts) = (&chunk.starts, &chunk.counts);
+                    let buffers = [view, grid, starts, counts, &chunk.lists_m, pixels, work];
+                    kernel.bind(gpu, &buffers)
+                };
+                chunks.iter().map(bind).collect()
+            },
         )
     }
 
@@ -165,7 +169,7 @@ impl PreparedGrid {
         mut take: impl FnMut(Range<u32>, &[u8]),
     ) -> Result<(f64, f64), RenderError> {
         let gpu = &self.variant.gpu;
-        let kernel = buffers.purpose.kernel(&self.variant.kernels);
+        let kernel = self.variant.kernels.for_result(buffers.layout.purpose);
         let ok = |error| self.memory.device_error(&error);
         let passes = self.passes(context);
         let (mut drawing_ms, mut fetching_ms) = (0.0, 0.0);
