@@ -7,6 +7,7 @@ use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridError, GridOptions};
 use guideway_scene::Method;
 use guideway_tessellation::{GlDevice, GlError};
+use guideway_tree::{Structure, TreeError, TreeOptions, Trees};
 
 use crate::BoxError;
 use crate::compare::Tolerance;
@@ -60,6 +61,23 @@ const GRIDS: [(&str, Tolerance); 3] = [
     ("scan+radius+aa=subpixel+samples=64", SUB_SAMPLES),
 ];
 
+/// The tested variants of `tree` and `quadtree`, with the limits of `grid`. The tests of
+/// `guideway-tree` compare the other ones with these.
+const TREES: [(Structure, &str, Tolerance); 4] = [
+    (Structure::Tree, "", TEN_SAMPLES),
+    (
+        Structure::Tree,
+        "tiles+exit+aa=subpixel+samples=64",
+        SUB_SAMPLES,
+    ),
+    (Structure::Quadtree, "tiles+exit+samples=64", SMOOTH_EDGES),
+    (
+        Structure::Quadtree,
+        "exit+aa=subpixel+samples=64",
+        SUB_SAMPLES,
+    ),
+];
+
 /// The device of [`guideway_gpu`].
 ///
 /// # Errors
@@ -90,6 +108,18 @@ pub fn grid(variant: &str) -> Result<Grid, GridError> {
     Grid::new(gpu()?, options)
 }
 
+/// A variant of `tree` or `quadtree`.
+///
+/// # Errors
+/// When the computer has no suitable device.
+///
+/// # Panics
+/// When the variant is unknown.
+pub fn tree(structure: Structure, variant: &str) -> Result<Trees, TreeError> {
+    let options = TreeOptions::parse(variant).expect("a known variant");
+    Trees::new(gpu()?, structure, options)
+}
+
 /// Method `gpu`.
 ///
 /// # Errors
@@ -109,6 +139,14 @@ fn all() -> Vec<Result<DeviceCandidate, BoxError>> {
         })
     });
     let mut all: Vec<_> = grids.into();
+    all.extend(TREES.map(|(structure, variant, tolerance)| {
+        Ok(DeviceCandidate {
+            name: format!("{} {variant}", structure.name()),
+            method: Box::new(tree(structure, variant)?),
+            tolerance,
+            least_scenes: 150,
+        })
+    }));
     let tiles = tiles().map(|tiles| tiles_candidate("gpu", tiles));
     all.push(tiles.map_err(BoxError::from));
     all

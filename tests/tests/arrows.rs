@@ -28,6 +28,16 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "guideway-tree",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-scene",
+            "guideway-gpu",
+            "guideway-grid",
+        ],
+    ),
+    (
         "guideway-viewer",
         &[
             "guideway-spline",
@@ -105,7 +115,7 @@ const RESTRICTED: &[(&str, &str)] = &[
         "png",
         "guideway-compose guideway-formats guideway-bench guideway-reproduce guideway-tests",
     ),
-    ("wgpu", "guideway-gpu guideway-grid"),
+    ("wgpu", "guideway-gpu guideway-grid guideway-tree"),
     ("glow", "guideway-tessellation"),
     ("khronos-egl", "guideway-tessellation"),
     ("winit", "guideway-viewer"),

@@ -35,8 +35,10 @@ fn tested_methods() -> Vec<TestedMethod> {
         let name = candidate.method.info().name.to_owned();
         (name, candidate.method, candidate.tolerance)
     });
+    // The thesis' methods refuse some of the edited scenes; `guideway-tree` tests its own edits.
     let on_device = candidates()
         .into_iter()
+        .filter(|candidate| candidate.tolerance == Tolerance::STANDARD)
         .map(|candidate| (candidate.name, candidate.method, candidate.tolerance));
     let all = std::iter::once(oracle).chain(on_processor).chain(on_device);
     all.map(|(name, method, tolerance)| TestedMethod {

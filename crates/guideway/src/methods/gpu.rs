@@ -1,10 +1,11 @@
-//! The methods by compute shaders: `gpu` and `grid`.
+//! The methods by compute shaders: `gpu`, `grid`, `tree` and `quadtree`.
 
 use std::sync::{Arc, LazyLock};
 
 use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridOptions};
 use guideway_scene::Method;
+use guideway_tree::{Structure, TreeOptions, Trees};
 
 use super::entry::{Entry, MethodOption, StartError};
 
@@ -76,6 +77,45 @@ pub(super) const GRID: Entry = Entry {
     start,
 };
 
+pub(super) const TREE: Entry = Entry {
+    name: "tree",
+    summary: "Thesis 6.1.1: tests each pixel against the lines of an AABB tree",
+    options: TREE_OPTIONS,
+    is_general: false,
+    start: |options| start_tree(Structure::Tree, options),
+};
+
+pub(super) const QUADTREE: Entry = Entry {
+    name: "quadtree",
+    summary: "Thesis 6.3: as `tree`, by a linear quadtree that each frame builds",
+    options: TREE_OPTIONS,
+    is_general: false,
+    start: |options| start_tree(Structure::Quadtree, options),
+};
+
+const TREE_OPTIONS: &[MethodOption] = &[
+    MethodOption {
+        name: "tiles",
+        summary: "the pixels of a tile search together, instead of each alone as in the thesis",
+    },
+    MethodOption {
+        name: "exit",
+        summary: "skips what lies below pixels that are fully covered",
+    },
+    MethodOption {
+        name: "aa=none",
+        summary: "no antialiasing",
+    },
+    MethodOption {
+        name: "aa=subpixel",
+        summary: "32 samples per pixel, and a color per path",
+    },
+    MethodOption {
+        name: "samples=5",
+        summary: "samples per segment, 10 in the thesis",
+    },
+];
+
 /// Returns `true` if the graphics device is hardware, not a software implementation.
 pub(super) fn is_in_hardware() -> bool {
     DEVICE.as_ref().is_ok_and(|device| !device.is_software())
@@ -89,6 +129,13 @@ fn start(options: &str) -> Result<Box<dyn Method>, StartError> {
         GridOptions::parse(options).map_err(|error| StartError::Options(error.to_string()))?;
     let grid = Grid::new(device()?, options).map_err(unavailable)?;
     Ok(Box::new(grid))
+}
+
+fn start_tree(structure: Structure, options: &str) -> Result<Box<dyn Method>, StartError> {
+    let options =
+        TreeOptions::parse(options).map_err(|error| StartError::Options(error.to_string()))?;
+    let trees = Trees::new(device()?, structure, options).map_err(unavailable)?;
+    Ok(Box::new(trees))
 }
 
 /// The device, or why there is none.

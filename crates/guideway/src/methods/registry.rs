@@ -75,6 +75,10 @@ const ENTRIES: &[Entry] = &[
     gpu::TILES,
     #[cfg(feature = "gpu")]
     gpu::GRID,
+    #[cfg(feature = "gpu")]
+    gpu::TREE,
+    #[cfg(feature = "gpu")]
+    gpu::QUADTREE,
     #[cfg(feature = "gl")]
     tessellation::PER_PATH,
     #[cfg(feature = "gl")]
