@@ -2,7 +2,7 @@
 
 use guideway_scene::{Budget, Frame, RenderError};
 use guideway_tests::BoxError;
-use guideway_tests::compare::{Difference, check};
+use guideway_tests::compare::{Difference, Tolerance, check};
 use guideway_tests::devices::{DeviceCandidate, candidates};
 use guideway_tests::evidence;
 use guideway_tests::methods::{check_counts, draw, draw_reference};
@@ -53,6 +53,7 @@ fn device_methods_match_the_oracle_in_supported_scenes() {
 /// The outcomes of the candidates that support a scene.
 fn outcomes(case: &SceneCase, candidates: &[DeviceCandidate]) -> Vec<Outcome> {
     let drawing = case.build();
+    let has_one_color = drawing.scene().common_color().is_some();
     let mut expected = None;
     let mut outcomes = Vec::new();
     for (number, candidate) in candidates.iter().enumerate() {
@@ -68,8 +69,13 @@ fn outcomes(case: &SceneCase, candidates: &[DeviceCandidate]) -> Vec<Outcome> {
             Err(error) => Err(error.into()),
             Ok((actual, report)) => {
                 let expected = expected.get_or_insert_with(|| draw_reference(&drawing).0);
+                let tolerance = match has_one_color {
+                    true => &candidate.tolerance,
+                    false => &candidate.color_tolerance,
+                };
+                let name = format!("{} {}", candidate.name, case.name);
                 check_counts(&report, &drawing)
-                    .and_then(|()| compare(&case.name, candidate, expected, &actual))
+                    .and_then(|()| compare(&name, tolerance, expected, &actual))
             }
         };
         outcomes.push(Outcome {
@@ -82,14 +88,13 @@ fn outcomes(case: &SceneCase, candidates: &[DeviceCandidate]) -> Vec<Outcome> {
 }
 
 fn compare(
-    scene: &str,
-    candidate: &DeviceCandidate,
+    name: &str,
+    tolerance: &Tolerance,
     expected: &Frame,
     actual: &Frame,
 ) -> Result<Difference, BoxError> {
-    check(expected, actual, &candidate.tolerance).map_err(|message| {
-        let name = format!("{} {scene}", candidate.name);
-        let written = evidence::write(&name, expected, actual);
+    check(expected, actual, tolerance).map_err(|message| {
+        let written = evidence::write(name, expected, actual);
         let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
         format!("{message}; see {shown}").into()
     })

@@ -45,7 +45,7 @@ impl Root {
     }
 }
 
-/// How well the boxes of a tree fit.
+/// A measure of how closely the boxes of a tree fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Quality {
     /// Half perimeters of inner nodes, relative to those of the leaves.

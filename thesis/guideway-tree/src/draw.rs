@@ -21,7 +21,7 @@ const MIN_LIMIT: u64 = 2048;
 /// because few pixels walk that far.
 const TYPICAL_SHARE: u64 = 16;
 
-/// What all dispatches of a picture share.
+/// The inputs that all dispatches of a picture share.
 pub(super) struct Drawing<'a> {
     pub(super) gpu: &'a Gpu,
     pub(super) kernels: &'a Kernels,

@@ -53,8 +53,8 @@ pub(super) struct Mover<'a> {
 }
 
 impl Mover<'_> {
-    /// Uploads the control points of moved paths, in ascending order, and updates the trees of their
-    /// chunks. Returns the bytes sent.
+    /// Uploads the control points of moved paths, in ascending order, and updates the trees of
+    /// their chunks. Returns the bytes sent.
     ///
     /// # Errors
     /// When the device or the budget has too little memory, or the device fails.

@@ -37,7 +37,7 @@ impl Trees {
         structure: Structure,
         options: TreeOptions,
     ) -> Result<Self, TreeError> {
-        let options = TreeOptions::parse(&options.to_string())?;
+        options.check()?;
         Ok(Self(Arc::new(Variant {
             kernels: Kernels::new(&gpu, structure, &options)?,
             gpu,

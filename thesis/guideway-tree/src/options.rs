@@ -94,11 +94,9 @@ impl TreeOptions {
                 ("aa", Some("none")) => options.antialias = Antialias::None,
                 ("aa", Some("subpixel")) => options.antialias = Antialias::Subpixel,
                 ("samples", Some(number)) => {
-                    let samples = number.parse().ok().filter(|n| (2..=64).contains(n));
-                    let samples = samples.ok_or_else(|| OptionsError::Samples {
+                    options.samples = number.parse().map_err(|_| OptionsError::Samples {
                         samples: number.to_owned(),
-                    });
-                    options.samples = samples?;
+                    })?;
                 }
                 _ => {
                     let option = word.to_owned();
@@ -113,12 +111,26 @@ impl TreeOptions {
             }
             topics.push(topic);
         }
+        options.check()?;
         Ok(options)
+    }
+
+    /// Checks that all numbers are in range.
+    ///
+    /// # Errors
+    /// When a number is out of range: the error names it and the range.
+    pub fn check(&self) -> Result<(), OptionsError> {
+        match self.samples {
+            2..=64 => Ok(()),
+            samples => Err(OptionsError::Samples {
+                samples: samples.to_string(),
+            }),
+        }
     }
 
     /// Lines per segment.
     pub(super) fn lines_per_segment(&self) -> u32 {
-        self.samples.clamp(2, 64) - 1
+        self.samples - 1
     }
 }
 

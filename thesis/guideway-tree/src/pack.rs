@@ -35,7 +35,7 @@ pub(super) struct Packed {
     pub(super) keys: Vec<u32>,
 }
 
-/// Where the control points of a path lie on the device: all runs one after the other.
+/// Place of the control points of a path on the device: all runs one after the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Place {
     /// The path is not drawn.

@@ -1,6 +1,6 @@
 //! Steps of a build: kernels with their buffers, and those that sort keys with their segments.
 //!
-//! Input: the account of a scene, buffers. Output: steps that a submission runs one after the other.
+//! Input: the account of a scene, buffers. Output: steps that a submission runs in their order.
 
 use guideway_gpu::device::{
     Bindings, DeviceBuffer, DeviceError, Dispatch, Gpu, Kernel, Memory, Runner,

@@ -181,7 +181,7 @@ fn counts_the_tests_of_all_lines_and_fewer_with_exit() {
             let work = count(form);
             assert_eq!(work.tests, Some(20 * 15 * 30 * 6 * 9), "{form}");
             assert!(work.bytes_read > Some(0) && work.bytes_written > Some(0));
-            let fewer = count(&format!("{form}+exit").trim_start_matches('+').to_owned());
+            let fewer = count(format!("{form}+exit").trim_start_matches('+'));
             assert!(fewer.tests < work.tests && fewer.tests > Some(0));
             assert!(fewer.bytes_read < work.bytes_read);
         }

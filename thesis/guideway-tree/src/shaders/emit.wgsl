@@ -1,6 +1,6 @@
-// Emits the inner nodes of an LBVH over sorted leaves in one pass from the leaves up (Apetrei 2014).
-// Inner node `i` splits the leaves after leaf `i`. Where two neighbors differ in a higher bit, the
-// split is nearer to the root; equal keys differ by their place.
+// Emits the inner nodes of an LBVH over sorted leaves, in one pass from the leaves up (Apetrei
+// 2014). Inner node `i` splits the leaves after leaf `i`. Where two neighbors differ in a higher
+// bit, the split is nearer to the root; equal keys differ by their place.
 //
 // Two threads meet at a node and exchange the ends of their ranges by one atomic operation, so no
 // thread depends on the order of other writes.

@@ -24,7 +24,7 @@ fn main(
         return;
     }
     let segment = order[leaf];
-    // What is left to add; 0 adds nothing.
+    // The part that is left to add; 0 adds nothing.
     var box = packed_box(box_of(segment));
     var rank = select(0u, segments[segment].y, RANKED);
     var node = build.leaves - 1u + leaf;
