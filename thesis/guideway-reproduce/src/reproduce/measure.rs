@@ -5,7 +5,7 @@ use std::time::{Instant, SystemTime};
 use guideway_scene::{Cancel, RenderError};
 
 use super::deadline::Deadline;
-use super::names::{BORDERS, GROWTH, MAGNIFICATION, MOST_PATHS, OCCUPANCY, PICTURES};
+use super::names::{BORDERS, CHANGES, GROWTH, MAGNIFICATION, MOST_PATHS, OCCUPANCY, PICTURES};
 use super::parts::{borders, growth, most_paths, pictures, views};
 use super::plan::Plan;
 use super::run::{PartFacts, Results, Run, RunSession};
@@ -35,11 +35,12 @@ impl Part {
 }
 
 /// The parts of a run in order.
-const PARTS: [Part; 6] = [
+const PARTS: [Part; 7] = [
     Part::new(PICTURES, 2.0, pictures::pictures),
     Part::new(BORDERS, 1.0, borders::borders),
     Part::new(OCCUPANCY, 2.0, views::occupancy),
     Part::new(MAGNIFICATION, 2.0, views::zoom),
+    Part::new(CHANGES, 2.0, growth::changes),
     Part::new(MOST_PATHS, 6.0, most_paths::most_paths),
     Part::new(GROWTH, 6.0, growth::growth),
 ];

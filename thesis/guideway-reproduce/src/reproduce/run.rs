@@ -75,6 +75,9 @@ pub struct Results {
     /// Figures 5.4 and 5.5: `at` is the number of paths. Everything is seen; `prepare` is the mean
     /// of the plan's repeats.
     pub growth: Vec<Reading>,
+    /// Every path moves before each frame; everything is seen.
+    #[serde(default)]
+    pub changes: Vec<Reading>,
     /// Coverage relative to the oracle, for lines across the borders of cells.
     pub borders: Vec<Border>,
     /// Figures 5.1, 5.2, 5.3, 5.6 and 5.7.

@@ -15,7 +15,7 @@ use super::plan::Plan;
 use super::run::{MethodFacts, OUT_OF_TIME};
 use guideway_bench::MeasureError;
 use guideway_bench::runner::{FrameRequest, Frames, Runner};
-use guideway_bench::{Dataset, Measured, Motion, Outcome, Start, StartError, interleaved};
+use guideway_bench::{Dataset, Edits, Measured, Motion, Outcome, Start, StartError, interleaved};
 
 /// Most paths of all cached scenes: at eight segments per path, some 500 MB.
 const CACHED_PATHS: usize = 5_000_000;
@@ -127,7 +127,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Measures one view of a prepared scene.
+    /// Measures one view of a prepared scene, with edits before its frames or without.
     ///
     /// # Errors
     /// Only when the caller cancels.
@@ -135,11 +135,15 @@ impl<'a> Session<'a> {
         &self,
         runner: &mut Runner<'_>,
         view: &View,
+        edits: Option<&Edits>,
     ) -> Result<Result<Measured, MeasureError>, RenderError> {
         let request = FrameRequest {
             view: *view,
-            motion: Motion::Still,
-            edits: None,
+            motion: match edits {
+                Some(_) => Motion::Edit,
+                None => Motion::Still,
+            },
+            edits: edits.cloned(),
             style: self.style(),
             frames: Frames {
                 warmup: self.plan.warmup,
@@ -152,7 +156,8 @@ impl<'a> Session<'a> {
         Ok(results.remove(0))
     }
 
-    /// Measures several views of one scene with one method until the time is over.
+    /// Measures several views of one scene with one method until the time is over, with edits
+    /// before their frames or without.
     ///
     /// # Errors
     /// Only when the caller cancels.
@@ -161,6 +166,7 @@ impl<'a> Session<'a> {
         spec: &str,
         scene: &Arc<Scene>,
         views: &[View],
+        edits: Option<&Edits>,
         time: Deadline,
     ) -> Result<Vec<Outcome>, RenderError> {
         let all_missing = |reason: String| vec![Outcome::NotMeasured(reason); views.len()];
@@ -180,7 +186,7 @@ impl<'a> Session<'a> {
             outcomes.push(if self.is_over(time) {
                 Outcome::NotMeasured(OUT_OF_TIME.to_owned())
             } else {
-                Outcome::from(self.measure(&mut runner, view)?)
+                Outcome::from(self.measure(&mut runner, view, edits)?)
             });
         }
         Ok(outcomes)

@@ -85,6 +85,7 @@ fn records_the_numbers_of_every_method() {
     assert_eq!(results.occupancy.len(), 2 * 4 * 3);
     assert_eq!(results.zoom.len(), 2 * 4 * 4);
     assert_eq!(results.growth.len(), 2 * 4 * 2);
+    assert_eq!(results.changes.len(), 2 * 4);
     assert_eq!(results.borders.len(), 4);
     let shares: Vec<f64> = results.occupancy[..3].iter().map(|r| r.at).collect();
     assert!(

@@ -69,7 +69,7 @@ fn the_page_has_every_table_and_figure() {
             .count()
     };
     assert_eq!(count("img"), 2 + 4 + 2 + 2);
-    assert_eq!(count("article"), 14);
+    assert_eq!(count("article"), 16);
     for method in METHODS {
         assert!(page.contains(method));
     }
@@ -140,6 +140,7 @@ fn writes_every_table_as_csv() {
         "figure-5.3.csv",
         "figure-5.4.csv",
         "figure-5.5.csv",
+        "changes.csv",
         "borders.csv",
         "work.csv",
         "methods.csv",

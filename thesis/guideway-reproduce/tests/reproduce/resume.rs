@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use guideway_bench::{Dataset, Outcome, StartError};
 use guideway_reproduce::report::{PAGE, files};
 use guideway_reproduce::reproduce::{
-    Limit, Plan, Reading, ResumeError, Run, RunSession, reproduce, resume,
+    Limit, PartFacts, Plan, Reading, ResumeError, Run, RunSession, reproduce, resume,
 };
 use guideway_scene::{Cancel, Method};
 
@@ -55,6 +55,7 @@ fn assert_same(a: &Run, b: &Run) {
         (&x.occupancy, &y.occupancy),
         (&x.zoom, &y.zoom),
         (&x.growth, &y.growth),
+        (&x.changes, &y.changes),
     ] {
         let places = |readings: &[Reading]| readings.iter().map(place).collect::<Vec<_>>();
         assert_eq!(places(x), places(y));
@@ -105,6 +106,7 @@ fn resume_completes_a_run_stopped_in_any_part() {
         "picture of figure 5.3",
         "coverage: tessellation against oracle",
         "pixels inside the grid: tessellation on D1",
+        "changes: grid on D2",
         "most paths: grid on D2, trying 1000",
         "growth: tessellation on D2 with 50 paths",
     ] {
@@ -239,7 +241,8 @@ fn contradictory_trials_end_the_search() {
     found.trials[0].paths = 3;
     found.trials[0].frame_ms = Some(1e9);
     found.trials.rotate_left(1);
-    cut.parts[4].is_cut = true;
+    let most_paths = |part: &&mut PartFacts| part.name.starts_with("most paths");
+    cut.parts.iter_mut().find(most_paths).unwrap().is_cut = true;
     let (done, _) = resume_with(cut, FAKE).unwrap();
     assert_eq!(done.results.most_paths[0].limit, Limit::FrameTime);
 }

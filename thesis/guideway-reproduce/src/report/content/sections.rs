@@ -27,6 +27,7 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
         growth::frames(run),
         growth::builds(run),
         appearance(run),
+        work::changes(run),
         work::borders(run),
         work::section(run),
         about::section(run),

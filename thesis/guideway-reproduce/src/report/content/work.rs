@@ -1,9 +1,9 @@
-//! Coverage at the borders of cells, and the counted work of a frame.
+//! Coverage at the borders of cells, layouts that change, and the counted work of a frame.
 
-use super::cells::why_not;
+use super::cells::{frame_cells, frame_columns, why_not};
 use super::section::{Block, Section};
 use crate::report::table::{Cell, Column, Table};
-use crate::reproduce::{Border, Reading, Run};
+use crate::reproduce::{Border, Reading, Run, names};
 use guideway_bench::format::{megabytes, percent};
 
 /// Missing share of the coverage above which a picture counts as empty. Derived: a method with
@@ -65,6 +65,73 @@ fn blind(run: &Run) -> Option<Block> {
             names.join(", ")
         ))
     })
+}
+
+/// The section about frames before each of which all paths move.
+pub(super) fn changes(run: &Run) -> Section {
+    let row = |reading: &Reading| {
+        let measured = reading.row.measured();
+        let stage_ms = |names: &[&str]| {
+            let stages = measured?.stages.iter();
+            let mut own = stages
+                .filter(|stage| names.contains(&stage.name.as_str()))
+                .peekable();
+            own.peek()?;
+            Some(own.map(|stage| stage.ms).sum::<f64>())
+        };
+        let updated = measured.and_then(|m| m.update_ms);
+        let mut cells = vec![
+            Cell::text(reading.dataset.name()),
+            Cell::text(reading.row.method.clone()),
+            Cell::Count(reading.paths as u64),
+            Cell::from(measured.map(|m| m.prepare.ms)),
+            Cell::from(updated.map(|m| m.mean)),
+            Cell::from(stage_ms(&[names::KEYS, names::SORT])),
+            Cell::from(stage_ms(&[names::TEST_PIXELS])),
+            Cell::from(measured.map(|m| m.frame_ms.mean)),
+            Cell::from(measured.and_then(|m| m.work.tests_a_pixel)),
+            Cell::from(measured.map(|m| megabytes(m.held_bytes))),
+            Cell::from(measured.map(|m| megabytes(m.peak_bytes))),
+            why_not(&reading.row),
+        ];
+        cells.extend(frame_cells(measured));
+        cells
+    };
+    let mut columns = vec![
+        Column::new("Dataset", "dataset"),
+        Column::new("Method", "method"),
+        Column::new("Paths", "paths"),
+        Column::new("First build (ms)", "build_ms"),
+        Column::new("Update (ms)", "update_ms"),
+        Column::new("Build in the frame (ms)", "frame_build_ms"),
+        Column::new("Query (ms)", "query_ms"),
+        Column::in_page("Frame with update: mean (ms)"),
+        Column::new("Tests per pixel", "tests_a_pixel"),
+        Column::new("Held (MB)", "held_mb"),
+        Column::new("Peak (MB)", "peak_mb"),
+        Column::new("Not measured", "why_not"),
+    ];
+    columns.extend(frame_columns());
+    Section {
+        id: "changes",
+        title: "Layouts that change",
+        blocks: vec![
+            Block::Text(
+                "All paths are in view and move before each frame. A method that cannot follow \
+                 prepares the whole scene again; `tree` fits its boxes to the moved curves, and \
+                 `quadtree` builds its cells in every frame. An update in place is wall time: it \
+                 counts the new positions and their upload too."
+                    .to_owned(),
+            ),
+            Block::Table(Table {
+                name: "changes",
+                title: "Build, update, query and memory where all paths move".to_owned(),
+                is_folded: false,
+                columns,
+                rows: run.results.changes.iter().map(row).collect(),
+            }),
+        ],
+    }
 }
 
 /// The section about device-independent work counts.

@@ -1,7 +1,11 @@
-//! Judges the claims on building the grid, by the phase times of the growth part.
+//! Judges the claims on building the grid and what the thesis proposes instead, by the phase times
+//! of the growth part and by layouts that change.
 
 use super::judgment::{Judgment, at_most_paths, in_all};
-use crate::reproduce::names::{BIN, COUNT, GRID, GRID_SCAN, PREFIX_SUM, SAMPLE};
+use crate::reproduce::names::{
+    BIN, COUNT, GRID, GRID_RADIUS, GRID_SCAN, KEYS, PREFIX_SUM, QUADTREE, QUADTREE_TILES, SAMPLE,
+    SORT, TEST_PIXELS, TREE, TREE_TILES,
+};
 use crate::reproduce::{Results, Run};
 use guideway_bench::format::{count, digits, percent, time, times};
 use guideway_bench::{Dataset, Measured};
@@ -132,5 +136,91 @@ pub(super) fn dynamic(run: &Run) -> Judgment {
             time(frame_ms),
         );
         Some((holds, evidence))
+    }))
+}
+
+/// Sum of stages of a frame; `None` if the method lacks one.
+fn stages_ms(measured: &Measured, names: &[&str]) -> Option<f64> {
+    let stage = |name: &&str| measured.stages.iter().find(|s| s.name == *name);
+    names.iter().map(|name| Some(stage(name)?.ms)).sum()
+}
+
+/// Distance tests per pixel by the grid and by another method, if both count.
+fn tests(grid: &Measured, name: &str, other: &Measured) -> String {
+    match (grid.work.tests_a_pixel, other.work.tests_a_pixel) {
+        (Some(of_grid), Some(own)) => format!(
+            " A pixel tests {} lines by {GRID_RADIUS} and {} by {name}.",
+            digits(of_grid),
+            digits(own)
+        ),
+        _ => String::new(),
+    }
+}
+
+pub(super) fn quadtree(run: &Run) -> Judgment {
+    in_all(Dataset::ALL.map(|dataset| {
+        let (paths, [grid, quadtree]) = at_most_paths(run, dataset, [GRID_RADIUS, QUADTREE])?;
+        let build_ms = [phases_ms(grid)?, stages_ms(quadtree, &[KEYS, SORT])?];
+        let query_ms = [
+            stages_ms(grid, &[TEST_PIXELS])?,
+            stages_ms(quadtree, &[TEST_PIXELS])?,
+        ];
+        let tiles = at_most_paths(run, dataset, [QUADTREE_TILES]).filter(|tiles| tiles.0 == paths);
+        let tiles = tiles.and_then(|(_, [tiles])| stages_ms(tiles, &[TEST_PIXELS]));
+        let tiles = tiles.map(|ms| format!(", {} by {QUADTREE_TILES}", time(ms)));
+        let evidence = format!(
+            "{} with {} paths: built in {} by {GRID_RADIUS}, in {} by {QUADTREE}; queried in {} \
+             and {}{}.{}",
+            dataset.name(),
+            count(paths as u64),
+            time(build_ms[0]),
+            time(build_ms[1]),
+            time(query_ms[0]),
+            time(query_ms[1]),
+            tiles.unwrap_or_default(),
+            tests(grid, QUADTREE, quadtree),
+        );
+        let holds = build_ms[1] < build_ms[0] && query_ms[1] > query_ms[0];
+        Some((holds, evidence))
+    }))
+}
+
+pub(super) fn tree(run: &Run) -> Judgment {
+    in_all(Dataset::ALL.map(|dataset| {
+        let changed = |method| {
+            let curve = Results::curve(&run.results.changes, dataset, method);
+            curve
+                .last()
+                .map(|&(reading, measured)| (reading.paths, measured))
+        };
+        let ((paths, grid), (same, tree)) = (changed(GRID_RADIUS)?, changed(TREE)?);
+        if paths != same {
+            return None;
+        }
+        let update_ms =
+            [&grid.update_ms, &tree.update_ms].map(|update| Some(update.as_ref()?.mean));
+        let [Some(grid_ms), Some(tree_ms)] = update_ms else {
+            return None;
+        };
+        let tiles = changed(TREE_TILES)
+            .map(|(_, tiles)| format!(", {} by {TREE_TILES}", time(tiles.frame_ms.mean)));
+        let note = tree.notes.iter().find(|note| note.contains("unbalanced"));
+        let balance = note.map_or(
+            "No leaf of the tree is more than twice as deep as in a balanced one.",
+            String::as_str,
+        );
+        let evidence = format!(
+            "{} with {} paths that all move: updated in {} by {GRID_RADIUS}, in {} by {TREE}; \
+             whole frames take {} and {}{}.{} {balance}",
+            dataset.name(),
+            count(paths as u64),
+            time(grid_ms),
+            time(tree_ms),
+            time(grid.frame_ms.mean),
+            time(tree.frame_ms.mean),
+            tiles.unwrap_or_default(),
+            tests(grid, TREE, tree),
+        );
+        Some((tree_ms < grid_ms, evidence))
     }))
 }

@@ -13,7 +13,7 @@ struct Claim {
     judge: fn(&Run) -> Judgment,
 }
 
-const CLAIMS: [Claim; 14] = [
+const CLAIMS: [Claim; 16] = [
     Claim {
         title: "More paths per pixel than by tessellation",
         section: "5.3, table 5.1",
@@ -97,6 +97,19 @@ const CLAIMS: [Claim; 14] = [
         section: "6.1.1",
         text: "The grid is too slow to build for layouts that change while they are shown.",
         judge: build::dynamic,
+    },
+    Claim {
+        title: "A linear quadtree",
+        section: "6.1.1, 6.3",
+        text: "A linear quadtree is faster to build than the grid, but slower to query.",
+        judge: build::quadtree,
+    },
+    Claim {
+        title: "An AABB tree",
+        section: "6.1.1",
+        text: "An AABB tree follows layouts that change better than the grid, but can become \
+               unbalanced.",
+        judge: build::tree,
     },
 ];
 

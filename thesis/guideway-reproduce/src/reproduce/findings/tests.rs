@@ -270,6 +270,61 @@ fn building() {
 }
 
 #[test]
+fn proposals() {
+    let framed = |stages: &[(&str, f64)], base: Measured| Measured {
+        stages: stages
+            .iter()
+            .map(|&(name, ms)| StageTime::new(name, Clock::Device, ms))
+            .collect(),
+        ..base
+    };
+    let quadtree = |build_ms, query_ms| {
+        let grid = framed(&[("test pixels", 3.0)], build([1.0, 1.0, 1.0, 1.0]));
+        let stages = [("keys", 0.5), ("sort", build_ms), ("test pixels", query_ms)];
+        growth(vec![
+            reading(Dataset::D1, "grid+scan+radius", 90.0, grid),
+            reading(Dataset::D1, "quadtree", 90.0, framed(&stages, frame(1.0))),
+        ])
+    };
+    let words = ["in 4.00 ms", "90 paths"];
+    judge(
+        "A linear quadtree",
+        quadtree(1.0, 9.0),
+        quadtree(9.0, 9.0),
+        &words,
+    );
+    judge(
+        "A linear quadtree",
+        quadtree(1.0, 9.0),
+        quadtree(1.0, 1.0),
+        &words,
+    );
+    let tree = |update_ms, notes: &[&str]| {
+        let updated = |ms| Measured {
+            update_ms: Summary::of(&[ms]),
+            notes: notes.iter().map(|&note| note.to_owned()).collect(),
+            ..frame(ms + 1.0)
+        };
+        Results {
+            changes: vec![
+                reading(Dataset::D2, "grid+scan+radius", 90.0, updated(5.0)),
+                reading(Dataset::D2, "tree", 90.0, updated(update_ms)),
+            ],
+            ..Results::default()
+        }
+    };
+    let words = ["all move", "in 5.00 ms", "twice as deep"];
+    judge("An AABB tree", tree(1.0, &[]), tree(6.0, &[]), &words);
+    let note = "The tree is unbalanced: level 41.";
+    judge(
+        "An AABB tree",
+        tree(1.0, &[note]),
+        tree(6.0, &[note]),
+        &["level 41"],
+    );
+}
+
+#[test]
 fn borders() {
     let table = |written, with_radius| {
         let border = |method: &str, lost| Border {

@@ -1,5 +1,5 @@
 //! Figures 5.4 and 5.5: measures the times of preparation and frames against the number of paths,
-//! all in view.
+//! all in view; then frames of one number of paths that all move.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::reproduce::deadline::Deadline;
 use crate::reproduce::names::SAMPLE;
 use crate::reproduce::run::{Reading, Results};
 use crate::reproduce::session::Session;
-use guideway_bench::{Outcome, Prepare};
+use guideway_bench::{Edits, Moves, Outcome, Prepare};
 
 /// Measures preparation and frame times for each number of paths.
 pub(crate) fn growth(
@@ -37,6 +37,36 @@ pub(crate) fn growth(
     Ok(())
 }
 
+/// Measures frames before each of which all paths move.
+pub(crate) fn changes(
+    session: &Session<'_>,
+    time: Deadline,
+    out: &mut Results,
+) -> Result<(), RenderError> {
+    let all = Moves {
+        share: 1.0,
+        is_apart: false,
+    };
+    let paths = |dataset| session.plan.view_paths(dataset);
+    let mut open: Vec<_> = session.cases().collect();
+    open.retain(|&(dataset, spec)| {
+        Reading::settled(&out.changes, dataset, paths(dataset), spec) == 0
+    });
+    for (i, &(dataset, spec)) in open.iter().enumerate() {
+        session.show_progress(&format!("changes: {spec} on {}", dataset.name()));
+        let paths = paths(dataset);
+        let scene = session.scene(dataset, paths);
+        let edits = Edits::new(&scene, all);
+        let view = View::fit(session.size, scene.bounds())?;
+        let time = time.share(open.len() - i);
+        let outcome = session.measure_all(spec, &scene, &[view], Some(&edits), time)?;
+        for outcome in outcome {
+            Reading::new(dataset, paths, paths as f64, spec, outcome).put(&mut out.changes);
+        }
+    }
+    Ok(())
+}
+
 fn measure(
     session: &Session<'_>,
     spec: &str,
@@ -44,7 +74,9 @@ fn measure(
     time: Deadline,
 ) -> Result<Outcome, RenderError> {
     let all = View::fit(session.size, scene.bounds())?;
-    let mut outcome = session.measure_all(spec, scene, &[all], time)?.remove(0);
+    let mut outcome = session
+        .measure_all(spec, scene, &[all], None, time)?
+        .remove(0);
     if let (Outcome::Measured(measured), Ok(method)) = (&mut outcome, session.method(spec)) {
         // Figure 5.5 shows the phases of the grid; other methods need no repetition.
         let has_phases = measured.prepare.stages.iter().any(|s| s.name == SAMPLE);

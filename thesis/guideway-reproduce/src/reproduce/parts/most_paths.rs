@@ -65,7 +65,8 @@ fn find(
             let scene = session.scene(dataset, paths);
             let all = View::fit(session.size, scene.bounds())?;
             // A started trial runs to its end.
-            let mut outcomes = session.measure_all(spec, &scene, &[all], Deadline::never())?;
+            let mut outcomes =
+                session.measure_all(spec, &scene, &[all], None, Deadline::never())?;
             // The thesis uses the mean; the median equals it on an idle machine, and tolerates
             // load.
             Ok(match outcomes.remove(0) {

@@ -88,6 +88,7 @@ fn sweep(
                 spec,
                 &scene,
                 views.get(done..).unwrap_or_default(),
+                None,
                 time.share(left),
             )?;
             for (&at, outcome) in positions.iter().skip(done).zip(outcomes) {
