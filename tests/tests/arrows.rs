@@ -101,6 +101,8 @@ const SCENE: &[&str] = &["guideway-spline", "guideway-layout", "guideway-scene"]
 /// External crates that only the listed crates may depend on.
 const RESTRICTED: &[(&str, &str)] = &[
     ("arrow-ipc", "guideway-formats"),
+    // Its casts are a quarter of a build.
+    ("arrow-cast", "tests"),
     ("encoding_rs", "guideway-formats"),
     ("roxmltree", "guideway-formats"),
     ("saphyr-parser", "guideway-formats"),

@@ -2,15 +2,15 @@
 
 use std::fmt::Display;
 
-use arrow_array::Array;
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float32Type, Float64Type, Int64Type};
+use arrow_array::types::{Float32Type, Float64Type};
+use arrow_array::{Array, Int64Array};
 use arrow_schema::{DataType, Field};
 use guideway_layout::{Attribute, Cells, Code, Diagnostics, Place, Values};
 
 use super::attribute_names::attribute_of;
 use super::batch::Batch;
-use super::cast::{cast, count_lost};
+use super::cast::{count_lost, numbers, truth_values};
 use super::cell_formatter::CellFormatter;
 use super::column_names::PATHS_VERSION;
 use super::column_types::{is_text, value_type};
@@ -81,28 +81,24 @@ impl<'a> AttributeColumn<'a> {
         match cells {
             AttributeCells::Null => {}
             AttributeCells::Bool(out) => {
-                let column = cast(column, &DataType::Boolean)?;
-                let column = column.as_boolean();
+                let column = truth_values(column)?;
                 let get = |row| column.is_valid(row).then(|| column.value(row));
                 let rows = batch.drawn.iter().cloned().flatten();
                 rows.for_each(|row| out.push(get(row)));
             }
             AttributeCells::Int(out) => {
-                let numbers = cast(column, &DataType::Int64)?;
-                if count_lost(column, &numbers) > 0 {
+                let whole: Int64Array = numbers(column)?;
+                if count_lost(column, &whole) > 0 {
                     // An unsigned number beyond the range of i64: all values are converted to text.
                     let texts = TextCells::from_numbers(out, self.reading)?;
                     self.cells = Some(AttributeCells::Formatted(texts));
                     return self.add(batch);
                 }
-                batch.add_cells(out, numbers.as_primitive::<Int64Type>(), |v| v);
+                batch.add_cells(out, &whole, |v| v);
             }
             AttributeCells::Float(out) => match column.as_primitive_opt::<Float32Type>() {
                 Some(narrow) => batch.add_cells(out, narrow, f64::from),
-                None => {
-                    let numbers = cast(column, &DataType::Float64)?;
-                    batch.add_cells(out, numbers.as_primitive::<Float64Type>(), |v| v);
-                }
+                None => batch.add_cells(out, &numbers::<Float64Type>(column)?, |v| v),
             },
             AttributeCells::Text(texts) => texts.add_texts(batch, self.index)?,
             AttributeCells::Formatted(texts) => texts.add_formatted(batch, self.index)?,

@@ -15,7 +15,6 @@ use super::element::Element;
 use super::layout_rows::Row;
 use super::schema::is_reserved;
 use super::write_column::Column;
-use super::write_error::WriteProblem;
 
 /// Column of an attribute.
 pub(super) struct AttributeSource<'a> {
@@ -162,12 +161,7 @@ impl AttributeSource<'_> {
     }
 
     /// Returns the array of a batch.
-    pub(super) fn array(
-        &self,
-        layout: &Layout,
-        kind: Element,
-        rows: &[Row],
-    ) -> Result<ArrayRef, WriteProblem> {
+    pub(super) fn array(&self, layout: &Layout, kind: Element, rows: &[Row]) -> ArrayRef {
         let mut cells = self.column.cells();
         if let Some(table) = self.table(kind) {
             // A row that continues a path has only its part.
@@ -184,7 +178,7 @@ impl AttributeSource<'_> {
             };
             rows.iter().for_each(|row| cells.push(value(row)));
         } else {
-            return Ok(new_null_array(self.column.field().data_type(), rows.len()));
+            return new_null_array(self.column.field().data_type(), rows.len());
         }
         cells.take(&self.column)
     }

@@ -29,7 +29,7 @@ impl<'a> IdColumn<'a> {
 
     /// Appends the drawn rows of a batch.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
-        let texts = id_texts(self.index, &batch.columns)?;
+        let texts = id_texts(self.index, &batch.columns);
         for rows in batch.drawn.iter().cloned() {
             let unnamed = |row| {
                 self.unnamed += 1;
@@ -60,11 +60,6 @@ impl<'a> IdColumn<'a> {
 }
 
 /// Returns the identifiers of a batch, if the table has a column `index` of them.
-pub(super) fn id_texts(
-    index: Option<usize>,
-    columns: &[ArrayRef],
-) -> Result<Option<TextArray<'_>>, Problem> {
-    index
-        .map(|id| TextArray::from_ids(&columns[id]))
-        .transpose()
+pub(super) fn id_texts(index: Option<usize>, columns: &[ArrayRef]) -> Option<TextArray<'_>> {
+    index.map(|id| TextArray::from_ids(&columns[id]))
 }

@@ -44,7 +44,7 @@ impl Source<'_> {
                 Arc::new(StringArray::from_iter_values(ids))
             }
             Self::ControlPoints(precision) => control_points(*precision, layout, rows)?,
-            Self::Attribute(attribute) => attribute.array(layout, kind, rows)?,
+            Self::Attribute(attribute) => attribute.array(layout, kind, rows),
             Self::Element(kinds) => kinds.array(rows.iter().map(|_| Some(kind as i8)))?,
             Self::Part => {
                 let parts = rows.iter().map(|row| row.part as u32);

@@ -4,12 +4,15 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, UInt32Type};
-use arrow_array::{Array, ArrayRef, Float64Array, LargeListArray, UInt32Array, new_null_array};
-use arrow_schema::DataType;
+use arrow_array::{Array, ArrayRef, Float64Array, LargeListArray, UInt32Array, make_array};
+use arrow_buffer::{NullBuffer, OffsetBuffer};
+use arrow_data::transform::MutableArrayData;
+use arrow_schema::{ArrowError, DataType, FieldRef};
 
 use super::budget::Budget;
-use super::cast::cast;
+use super::cast;
+use super::catch_decode_panic::catch_decode_panic;
+use super::problems::damaged;
 use crate::Problem;
 
 /// A column of lists, whose items lie in sequence in one array.
@@ -18,12 +21,25 @@ pub(super) struct ListArray(LargeListArray);
 impl ListArray {
     /// Interprets a column of lists: `list`, `large_list` or `fixed_size_list`.
     pub(super) fn new(column: &ArrayRef) -> Result<Self, Problem> {
-        let item = match column.data_type() {
-            DataType::List(item) | DataType::FixedSizeList(item, _) => Arc::clone(item),
+        let (item, ends, items) = match column.data_type() {
+            DataType::List(item) => {
+                let lists = column.as_list::<i32>();
+                let ends = lists.offsets().iter().map(|&end| i64::from(end));
+                (item, ends.collect(), lists.values())
+            }
+            DataType::FixedSizeList(item, count) => {
+                let lists = column.as_fixed_size_list();
+                let ends = (0..=lists.len() as i64).map(|row| row * i64::from(*count));
+                (item, ends.collect(), lists.values())
+            }
             _ => return Ok(Self(column.as_list::<i64>().clone())),
         };
-        let large = cast(column, &DataType::LargeList(item))?;
-        Ok(Self(large.as_list::<i64>().clone()))
+        let nulls = column.nulls().cloned();
+        catch_decode_panic("column", || {
+            let ends = OffsetBuffer::new(ends);
+            let large = LargeListArray::try_new(Arc::clone(item), ends, Arc::clone(items), nulls);
+            Ok(Self(large.map_err(not_listed)?))
+        })
     }
 
     /// Returns the items of all rows.
@@ -81,13 +97,11 @@ impl NumberLists {
 
 /// Casts a column to row numbers; numbers that do not fit are null.
 pub(super) fn indices(column: &ArrayRef) -> Result<UInt32Array, Problem> {
-    let cast = cast(column, &DataType::UInt32)?;
-    Ok(cast.as_primitive::<UInt32Type>().clone())
+    cast::numbers(column)
 }
 
 pub(super) fn numbers(column: &ArrayRef) -> Result<Float64Array, Problem> {
-    let cast = cast(column, &DataType::Float64)?;
-    Ok(cast.as_primitive::<Float64Type>().clone())
+    cast::numbers(column)
 }
 
 pub(super) fn value_or_nan(numbers: &Float64Array, at: usize) -> f64 {
@@ -101,21 +115,33 @@ pub(super) fn value_or_nan(numbers: &Float64Array, at: usize) -> f64 {
 ///
 /// Views may refer to the same items many times; the copies are charged to the budget.
 pub(super) fn flat(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
-    let (items, values, count) = match column.data_type() {
-        DataType::ListView(items) => {
+    let rows = 0..column.len();
+    let view = |start: usize, count: usize| start..start.saturating_add(count);
+    match column.data_type() {
+        DataType::ListView(item) => {
             let views = column.as_list_view::<i32>();
-            let sizes = views.sizes().iter().map(|&size| size as u64);
-            (items, views.values(), sizes.sum::<u64>())
+            let range = |row| {
+                view(
+                    views.value_offset(row) as usize,
+                    views.value_size(row) as usize,
+                )
+            };
+            let ranges = rows.map(|row| views.is_valid(row).then(|| range(row)));
+            in_sequence(item, views.values(), ranges.collect(), budget)
         }
-        DataType::LargeListView(items) => {
+        DataType::LargeListView(item) => {
             let views = column.as_list_view::<i64>();
-            let sizes = views.sizes().iter().map(|&size| size as u64);
-            (items, views.values(), sizes.sum::<u64>())
+            let range = |row| {
+                view(
+                    views.value_offset(row) as usize,
+                    views.value_size(row) as usize,
+                )
+            };
+            let ranges = rows.map(|row| views.is_valid(row).then(|| range(row)));
+            in_sequence(item, views.values(), ranges.collect(), budget)
         }
-        _ => return Ok(Arc::clone(column)),
-    };
-    charge_copies(count, values, budget)?;
-    cast(column, &DataType::LargeList(Arc::clone(items)))
+        _ => Ok(Arc::clone(column)),
+    }
 }
 
 /// Converts a dictionary of lists to the lists that its keys name, which are charged to the budget.
@@ -124,26 +150,48 @@ pub(super) fn unpacked(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, P
         return Ok(Arc::clone(column));
     };
     let values = dictionary.values();
-    let (DataType::List(_) | DataType::LargeList(_) | DataType::FixedSizeList(..)) =
+    let (DataType::List(item) | DataType::LargeList(item) | DataType::FixedSizeList(item, _)) =
         values.data_type()
     else {
         return Ok(Arc::clone(column));
     };
-    if values.is_empty() {
-        // All keys are null, and their values are undefined.
-        return Ok(new_null_array(values.data_type(), column.len()));
-    }
     let lists = ListArray::new(values)?;
-    let keys = dictionary.normalized_keys().into_iter().enumerate();
-    let keys = keys.filter(|(row, _)| column.is_valid(*row));
-    let count = keys.map(|(_, key)| lists.range(key).map_or(0, |range| range.len() as u64));
-    charge_copies(count.sum(), lists.items(), budget)?;
-    cast(column, values.data_type())
+    let rows = cast::value_rows(dictionary).into_iter();
+    let ranges = rows.map(|row| row.and_then(|row| lists.range(row)));
+    in_sequence(item, lists.items(), ranges.collect(), budget)
 }
 
-/// Charges copies of items for the part that exceeds the items themselves.
-fn charge_copies(count: u64, items: &ArrayRef, budget: &Budget) -> Result<(), Problem> {
+/// Copies the items of each row in sequence, and charges the part of the copies that exceeds the
+/// items themselves.
+fn in_sequence(
+    item: &FieldRef,
+    items: &ArrayRef,
+    ranges: Vec<Option<Range<usize>>>,
+    budget: &Budget,
+) -> Result<ArrayRef, Problem> {
+    let counts = || ranges.iter().map(|r| r.as_ref().map_or(0, Range::len));
+    let count = counts().fold(0, |sum: u64, count| sum.saturating_add(count as u64));
     let bytes = (items.get_buffer_memory_size() as u64).div_ceil(items.len().max(1) as u64);
     let copied = count.saturating_sub(items.len() as u64);
-    budget.charge(copied.saturating_mul(bytes))
+    budget.charge(copied.saturating_mul(bytes))?;
+    catch_decode_panic("column", || {
+        let data = items.to_data();
+        let mut copies = MutableArrayData::new(vec![&data], false, count as usize);
+        for range in ranges.iter().flatten() {
+            let copied = copies.try_extend(0, range.start, range.end);
+            copied.map_err(not_listed)?;
+        }
+        let nulls: NullBuffer = ranges.iter().map(Option::is_some).collect();
+        let lists = LargeListArray::try_new(
+            Arc::clone(item),
+            OffsetBuffer::from_lengths(counts()),
+            make_array(copies.freeze()),
+            Some(nulls),
+        );
+        Ok(Arc::new(lists.map_err(not_listed)?) as ArrayRef)
+    })
+}
+
+fn not_listed(error: ArrowError) -> Problem {
+    damaged("column", error.to_string())
 }

@@ -11,7 +11,7 @@
 //! | decode | messages | record batches, control polygons | `decode`, `message_body`, `control_polygons`, `point_items`, `fault` |
 //! | sort | record batches | kinds of their rows | `element`, `row_kinds` |
 //! | assemble | control polygons of paths | geometry, drawn and refused rows | `assemble`, `point_store`, `batch`, `numbering` |
-//! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `cell_formatter`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
+//! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `cell_formatter`, `cell_text`, `cell_times`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
 //! | paths | columns of paths | style and network | `path_columns`, `path_ids`, `style_columns`, `network_columns`, `written_curves` |
 //! | elements | rows of other kinds | their tables | `elements` |
 //! | read | all of these, batch by batch on several threads | layout | `read`, `reading` |
@@ -28,6 +28,8 @@ mod budget;
 mod cast;
 mod catch_decode_panic;
 mod cell_formatter;
+mod cell_text;
+mod cell_times;
 mod column_names;
 mod column_types;
 mod container;

@@ -34,7 +34,7 @@ impl<'a> PathIds<'a> {
             budget,
             ..
         } = self.reading;
-        let texts = id_texts(columns.get(Role::Id), &batch.columns)?;
+        let texts = id_texts(columns.get(Role::Id), &batch.columns);
         for &(row, fault) in &batch.refused {
             let number = batch.number(row);
             let id = texts.as_ref().and_then(|t| t.get(row)).unwrap_or(&number);

@@ -4,16 +4,14 @@
 use std::slice;
 use std::sync::Arc;
 
-use arrow_array::cast::AsArray;
-use arrow_array::types::Int64Type;
-use arrow_array::{Array, NullArray, RecordBatch};
-use arrow_schema::{DataType, Schema};
+use arrow_array::{Array, Int64Array, NullArray, RecordBatch};
+use arrow_schema::Schema;
 use guideway_layout::{Code, Diagnostics, GeoOrigin, Layout, Place, Provenance};
 
 use super::assemble::PathAssembler;
 use super::batch::Batch;
 use super::budget::Budget;
-use super::cast::cast;
+use super::cast;
 use super::column_names::{CONTROL_POINTS, ELEMENT, LATITUDE_KEY, LONGITUDE_KEY, PATHS_VERSION};
 use super::container::{self, Message};
 use super::decode::{Decoded, Decoder};
@@ -24,7 +22,7 @@ use super::path_columns::PathColumns;
 use super::reading::Reading;
 use super::row_kinds::RowKinds;
 use super::schema::{self, ColumnRoles, Role};
-use super::time_zones::with_offsets;
+use super::time_zones::report_lost_zones;
 use crate::input::Input;
 use crate::source::Source;
 use crate::{Format, Problem, ReadError};
@@ -44,7 +42,8 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     let limits = &source.options.limits;
     let mut diagnostics = Diagnostics::with_limit(limits.diagnostics_per_code);
     let container = container::open(input)?;
-    let schema = &with_offsets(&container.schema, &mut diagnostics);
+    let schema = &container.schema;
+    report_lost_zones(schema, &mut diagnostics);
     let version = schema::version(schema, &mut diagnostics)?;
     let columns = ColumnRoles::find(schema, version, &mut diagnostics)?;
     let budget = Budget::for_file(input.len());
@@ -223,10 +222,9 @@ impl<'a> TableReader<'a> {
         part: usize,
         first_row: usize,
     ) -> Result<Vec<bool>, Problem> {
-        let parts = cast(batch.column(part), &DataType::Int64)?;
-        let parts = parts.as_primitive::<Int64Type>();
+        let parts: Int64Array = cast::numbers(batch.column(part))?;
         let id_index = self.reading.columns.get(Role::Id);
-        let ids = id_column::id_texts(id_index, batch.columns())?;
+        let ids = id_column::id_texts(id_index, batch.columns());
         let id = |row: usize| ids.as_ref().and_then(|ids| ids.get(row));
         let mut continues = Vec::with_capacity(batch.num_rows());
         for row in 0..batch.num_rows() {

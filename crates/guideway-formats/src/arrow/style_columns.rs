@@ -1,12 +1,10 @@
 //! Style columns: stroke width, color and draw rank of the paths.
 
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float32Type, Int32Type, UInt32Type};
-use arrow_schema::DataType;
+use arrow_array::{Float32Array, Int32Array, UInt32Array};
 use guideway_layout::{Code, Diagnostics, Paths, Place};
 
 use super::batch::Batch;
-use super::cast::{cast, count_lost};
+use super::cast::{count_lost, numbers};
 use super::schema::{ColumnRoles, Role};
 use crate::Problem;
 
@@ -59,26 +57,24 @@ impl StyleColumns {
     /// Appends the drawn rows of a batch.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
         if let Some(widths) = &mut self.widths {
-            let column = cast(&batch.columns[widths.index], &DataType::Float32)?;
+            let column: Float32Array = numbers(&batch.columns[widths.index])?;
             let is_valid = |width: &f32| width.is_finite() && *width >= 0.0;
             let invalid = &mut widths.invalid;
             let width = |width: Option<f32>| {
                 *invalid += usize::from(width.is_some_and(|w| !is_valid(&w)));
                 width.filter(is_valid).unwrap_or(f32::NAN)
             };
-            let column = column.as_primitive::<Float32Type>();
-            batch.extend(&mut widths.values, column, width);
+            batch.extend(&mut widths.values, &column, width);
         }
         if let Some(colors) = &mut self.colors {
             let column = &batch.columns[colors.index];
-            let cast = cast(column, &DataType::UInt32)?;
+            let cast: UInt32Array = numbers(column)?;
             colors.invalid += count_lost(column, &cast);
-            let cast = cast.as_primitive::<UInt32Type>();
-            batch.extend(&mut colors.values, cast, Option::unwrap_or_default);
+            batch.extend(&mut colors.values, &cast, Option::unwrap_or_default);
         }
         if let Some(ranks) = &mut self.ranks {
             let column = &batch.columns[ranks.index];
-            let cast = cast(column, &DataType::Int32)?;
+            let cast: Int32Array = numbers(column)?;
             ranks.invalid += count_lost(column, &cast);
             // A missing rank is the row, as for paths without a rank column.
             let mut path = ranks.values.len();
@@ -86,11 +82,7 @@ impl StyleColumns {
                 path += 1;
                 rank.unwrap_or_else(|| i32::try_from(path - 1).unwrap_or(i32::MAX))
             };
-            batch.extend(
-                &mut ranks.values,
-                cast.as_primitive::<Int32Type>(),
-                in_order,
-            );
+            batch.extend(&mut ranks.values, &cast, in_order);
         }
         Ok(())
     }

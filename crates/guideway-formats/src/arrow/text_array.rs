@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
+use arrow_array::builder::StringBuilder;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, LargeStringArray, StringArray, StringViewArray};
 use arrow_schema::DataType;
 
-use super::catch_decode_panic::catch_decode_panic;
+use super::cell_text::cell_writer;
 use super::problems::damaged;
 use crate::Problem;
 
@@ -77,15 +78,20 @@ impl<'a> TextArray<'a> {
     }
 
     /// Interprets a column of text or integers as text.
-    pub(super) fn from_ids(column: &'a ArrayRef) -> Result<Self, Problem> {
+    pub(super) fn from_ids(column: &'a ArrayRef) -> Self {
         if let Some(texts) = Self::from_text(column) {
-            return Ok(texts);
+            return texts;
         }
-        let converted = catch_decode_panic("column id", || {
-            arrow_cast::cast(column, &DataType::Utf8)
-                .map_err(|e| damaged("column id", e.to_string()))
-        })?;
-        Ok(Self::Converted(converted.as_string::<i32>().clone()))
+        let mut texts = StringBuilder::new();
+        let write = cell_writer(column);
+        for row in 0..column.len() {
+            let write = write.as_ref().filter(|_| column.is_valid(row));
+            match write.map(|write| write(row, &mut texts)) {
+                Some(Ok(())) => texts.append_value(""),
+                _ => texts.append_null(),
+            }
+        }
+        Self::Converted(texts.finish())
     }
 
     /// Returns consecutive rows as one string, if the encoding stores them so and none is null.

@@ -142,7 +142,7 @@ impl ArrowWriter {
     fn write_batch(&mut self) -> Result<(), WriteProblem> {
         let mut arrays: Vec<ArrayRef> = vec![self.ids.take(), self.polygons.take()?];
         for (cells, column) in self.cells.iter_mut().zip(&self.columns) {
-            arrays.push(cells.take(column)?);
+            arrays.push(cells.take(column));
         }
         self.file.write(arrays)
     }

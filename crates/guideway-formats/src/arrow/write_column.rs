@@ -4,13 +4,16 @@
 use std::sync::Arc;
 
 use arrow_array::builder::{BooleanBuilder, Float64Builder, Int64Builder, StringBuilder};
-use arrow_array::{Array, ArrayRef, FixedSizeListArray, Float32Array, Float64Array, ListArray};
+use arrow_array::types::{
+    Float32Type, Int8Type, Int16Type, Int32Type, UInt8Type, UInt16Type, UInt32Type, UInt64Type,
+};
+use arrow_array::{ArrayRef, FixedSizeListArray, Float32Array, Float64Array, ListArray};
 use arrow_buffer::{OffsetBuffer, ScalarBuffer};
 use arrow_schema::{ArrowError, DataType, Field, FieldRef};
 use guideway_layout::{Attribute, Value, Values};
 use guideway_spline::{Point, Real};
 
-use super::write_error::WriteProblem;
+use super::cast::converted;
 
 /// Storage type of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -194,18 +197,23 @@ impl Cells {
     }
 
     /// Returns the array of the batch and empties the cells.
-    pub(super) fn take(&mut self, column: &Column) -> Result<ArrayRef, WriteProblem> {
-        let wide: ArrayRef = match self {
-            Self::Bool(b) => Arc::new(b.finish()),
-            Self::Int(b) => Arc::new(b.finish()),
-            Self::Float(b) => Arc::new(b.finish()),
-            Self::Text(b) => Arc::new(b.finish()),
-        };
-        let target = column.column_type.data_type();
-        if *wide.data_type() == target {
-            return Ok(wide);
+    pub(super) fn take(&mut self, column: &Column) -> ArrayRef {
+        match (self, column.column_type) {
+            (Self::Bool(b), _) => Arc::new(b.finish()),
+            (Self::Float(b), ColumnType::Float32) => {
+                Arc::new(converted::<_, Float32Type>(&b.finish()))
+            }
+            (Self::Float(b), _) => Arc::new(b.finish()),
+            (Self::Text(b), _) => Arc::new(b.finish()),
+            (Self::Int(b), ColumnType::Int8) => Arc::new(converted::<_, Int8Type>(&b.finish())),
+            (Self::Int(b), ColumnType::Int16) => Arc::new(converted::<_, Int16Type>(&b.finish())),
+            (Self::Int(b), ColumnType::Int32) => Arc::new(converted::<_, Int32Type>(&b.finish())),
+            (Self::Int(b), ColumnType::UInt8) => Arc::new(converted::<_, UInt8Type>(&b.finish())),
+            (Self::Int(b), ColumnType::UInt16) => Arc::new(converted::<_, UInt16Type>(&b.finish())),
+            (Self::Int(b), ColumnType::UInt32) => Arc::new(converted::<_, UInt32Type>(&b.finish())),
+            (Self::Int(b), ColumnType::UInt64) => Arc::new(converted::<_, UInt64Type>(&b.finish())),
+            (Self::Int(b), _) => Arc::new(b.finish()),
         }
-        Ok(arrow_cast::cast(&wide, &target)?)
     }
 }
 
