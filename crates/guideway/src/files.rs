@@ -1,10 +1,13 @@
 //! The shortest calls: open, check, render and save a layout with default options.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use guideway_compose::{ComposeError, NoProgress, Picture, Rendered, VectorFormat};
-use guideway_formats::{Losses, ReadError, ReadOptions, Target, WriteError, read_file};
+use guideway_formats::{
+    Losses, ReadError, ReadOptions, Target, WriteError, WriteProblem, read_file,
+};
 use guideway_layout::{CheckOptions, Diagnostics, Layout, UserError, shown_path};
 use guideway_network::AnalyzeOptions;
 use guideway_scene::{FrameSize, Scene, SceneOptions};
@@ -58,6 +61,24 @@ pub fn save(layout: &Layout, path: impl AsRef<Path>) -> Result<Losses, SaveAsErr
     let path = path.as_ref();
     let target = Target::for_file(layout, path).ok_or_else(|| SaveAsError::extension(path))?;
     Ok(target.write_file(layout, path)?)
+}
+
+/// Writes a layout to a stream in a format. Returns what the format cannot hold.
+///
+/// ```
+/// use guideway::formats::Target;
+///
+/// let layout = guideway::open("examples/site.lif.json")?;
+/// let mut drawing = Vec::new();
+/// let losses = guideway::write(&layout, Target::Svg, &mut drawing)?;
+/// assert!(drawing.starts_with(b"<svg") && losses.iter().len() > 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// See [`Target::write`].
+pub fn write(layout: &Layout, target: Target, mut out: impl Write) -> Result<Losses, WriteProblem> {
+    target.write(layout, &mut out)
 }
 
 /// Why [`save`] failed.

@@ -7,6 +7,7 @@
 //! | module | purpose |
 //! |---|---|
 //! | [`formats`] | reads and writes files |
+//! | [`arrow`] | tables in memory, for data frames and databases, and back |
 //! | [`layout`] | the model, its checks, merging of files |
 //! | [`spline`] | the mathematics of curves |
 //! | [`network`] | networks from drawings, their faults, and routes |
@@ -143,6 +144,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! [`write`] writes a given format to a stream. [`arrow::batches`] gives the tables in memory that
+//! data frames and databases take, and [`arrow::read_batches`] makes a layout of them again.
+//!
 //! # Compose
 //!
 //! A [`Picture`](compose::Picture) adds what a plan needs: a floor plan below the paths, arrows,
@@ -174,12 +178,13 @@ pub use guideway_cpu as cpu;
 pub use guideway_document as document;
 pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
+pub use guideway_formats::arrow;
 pub use guideway_layout as layout;
 pub use guideway_network as network;
 pub use guideway_scene as scene;
 pub use guideway_spline as spline;
 
-pub use files::{SaveAsError, check, open, render, save};
+pub use files::{SaveAsError, check, open, render, save, write};
 pub use guideway_compose::{save_png, save_png_by, write_png_by};
 pub use guideway_formats::{
     NewFile, SaveError, remove_unfinished, replace_file, try_remove_unfinished,

@@ -10,7 +10,7 @@ use crate::Problem;
 /// stay far below the limit; a malicious one fails before the memory is allocated.
 #[derive(Debug)]
 pub(super) struct Budget {
-    limit: u64,
+    limit: AtomicU64,
     used: AtomicU64,
 }
 
@@ -20,9 +20,20 @@ impl Budget {
 
     /// Makes the budget of a file.
     pub(super) fn for_file(file_bytes: usize) -> Self {
-        let limit = (file_bytes as u64).saturating_mul(Self::PER_FILE_BYTE) + Self::FLOOR_BYTES;
-        let used = AtomicU64::new(0);
-        Self { limit, used }
+        let budget = Self {
+            limit: AtomicU64::new(Self::FLOOR_BYTES),
+            used: AtomicU64::new(0),
+        };
+        budget.admit(file_bytes);
+        budget
+    }
+
+    /// Adds bytes of input, such as those of a record batch in memory.
+    pub(super) fn admit(&self, bytes: usize) {
+        let more = (bytes as u64).saturating_mul(Self::PER_FILE_BYTE);
+        let with = |limit: u64| limit.saturating_add(more);
+        self.limit
+            .update(Ordering::Relaxed, Ordering::Relaxed, with);
     }
 
     /// Charges `bytes` before they are allocated.
@@ -32,12 +43,13 @@ impl Budget {
     pub(super) fn charge(&self, bytes: u64) -> Result<(), Problem> {
         let with = |used: u64| used.saturating_add(bytes);
         let used = with(self.used.update(Ordering::Relaxed, Ordering::Relaxed, with));
-        if used <= self.limit {
+        let limit = self.limit.load(Ordering::Relaxed);
+        if used <= limit {
             return Ok(());
         }
         Err(Problem::LimitReached {
             what: "bytes that the file expands to",
-            limit: self.limit,
+            limit,
             actual: used,
         })
     }

@@ -64,10 +64,11 @@ impl Coordinates {
 }
 
 impl ControlPolygons {
-    /// Interprets a list column of any kind as control polygons.
+    /// Interprets a list column of any kind as control polygons. A message has a body, in which
+    /// coordinates may be deferred.
     pub(super) fn from_column(
         column: &ArrayRef,
-        body: &Body,
+        body: Option<&Body>,
         budget: &Budget,
     ) -> Result<Self, Problem> {
         let wrong_type = || {
@@ -106,17 +107,13 @@ impl ControlPolygons {
         let (coordinates, deferred) = match points.values().data_type() {
             DataType::Float32 => {
                 let values = points.values().as_primitive::<Float32Type>().values();
-                (
-                    Coordinates::F32(values.clone()),
-                    body.deferred_offset(values)?,
-                )
+                let deferred = body.map(|body| body.deferred_offset(values)).transpose()?;
+                (Coordinates::F32(values.clone()), deferred.flatten())
             }
             DataType::Float64 => {
                 let values = points.values().as_primitive::<Float64Type>().values();
-                (
-                    Coordinates::F64(values.clone()),
-                    body.deferred_offset(values)?,
-                )
+                let deferred = body.map(|body| body.deferred_offset(values)).transpose()?;
+                (Coordinates::F64(values.clone()), deferred.flatten())
             }
             _ => return Err(wrong_type()),
         };

@@ -50,11 +50,6 @@ impl<'a> Decoder<'a> {
         }
     }
 
-    /// Returns the size of the file in bytes.
-    pub(super) fn file_bytes(&self) -> usize {
-        self.input.len()
-    }
-
     /// Decodes a message; returns its record batch, or `None` for a dictionary or an empty message.
     pub(super) fn decode(
         &mut self,
@@ -118,7 +113,7 @@ impl<'a> Decoder<'a> {
                     read_record_batch(bytes, batch, schema, &self.dictionaries, None, &version)
                         .map_err(failed)?;
                 let polygons =
-                    ControlPolygons::from_column(batch.column(self.points), &body, budget)?;
+                    ControlPolygons::from_column(batch.column(self.points), Some(&body), budget)?;
                 Ok(Some(Decoded { batch, polygons }))
             }
             MessageHeader::NONE => Ok(None),

@@ -14,9 +14,9 @@
 //! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `cell_formatter`, `cell_text`, `cell_times`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
 //! | paths | columns of paths | style and network | `path_columns`, `path_ids`, `style_columns`, `network_columns`, `written_curves` |
 //! | elements | rows of other kinds | their tables | `elements` |
-//! | read | all of these, batch by batch on several threads | layout | `read`, `reading` |
+//! | read | all of these, batch by batch on several threads | layout | `read`, `read_batches`, `reading` |
 //! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems` |
-//! | write | layout, or rows | file, losses | `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file`, `write_error` |
+//! | write | layout, or rows | batches, file, losses | `batches`, `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file`, `write_error` |
 
 mod assemble;
 mod attribute_columns;
@@ -24,6 +24,7 @@ mod attribute_names;
 mod attribute_plan;
 mod attribute_table;
 mod batch;
+mod batches;
 mod budget;
 mod cast;
 mod catch_decode_panic;
@@ -54,6 +55,7 @@ mod point_items;
 mod point_store;
 mod problems;
 mod read;
+mod read_batches;
 mod reading;
 mod row_kinds;
 mod schema;
@@ -69,8 +71,12 @@ mod write_file;
 mod write_layout;
 mod written_curves;
 
+pub use arrow_array::{RecordBatch, RecordBatchIterator, RecordBatchReader};
+
+pub use self::batches::{Batches, batches};
 pub(crate) use self::read::read;
+pub use self::read_batches::read_batches;
 pub use self::write::ArrowWriter;
 pub use self::write_column::{Column, ColumnType, Precision};
-pub use self::write_error::{WriteError, WriteProblem};
 pub use self::write_layout::{WriteOptions, write_layout};
+pub use self::write_error::{WriteError, WriteProblem};

@@ -82,6 +82,9 @@ impl PointStore {
         input: &Input<'_>,
         limits: &Limits,
     ) -> Result<Vec<(usize, Fault)>, Problem> {
+        if matches!(self, Self::None) {
+            *self = Self::with_capacity(&polygons.coordinates, 0, 0);
+        }
         match (self, &polygons.coordinates) {
             (Self::F32(typed), Coordinates::F32(c)) => typed.load(polygons, c, input, limits),
             (Self::F64(typed), Coordinates::F64(c)) => typed.load(polygons, c, input, limits),

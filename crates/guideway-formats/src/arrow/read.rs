@@ -43,9 +43,7 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     let mut diagnostics = Diagnostics::with_limit(limits.diagnostics_per_code);
     let container = container::open(input)?;
     let schema = &container.schema;
-    report_lost_zones(schema, &mut diagnostics);
-    let version = schema::version(schema, &mut diagnostics)?;
-    let columns = ColumnRoles::find(schema, version, &mut diagnostics)?;
+    let columns = table_columns(schema, &mut diagnostics)?;
     let budget = Budget::for_file(input.len());
     let reading = Reading {
         schema,
@@ -55,14 +53,16 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     };
     let mut batches = BatchStream {
         source,
-        input,
         decoder: Decoder::new(input, Arc::new(schema.clone()), columns.control_points),
         messages: container.messages.iter(),
         total: container.messages.len(),
         budget: &budget,
     };
     let mut next = batches.next()?;
-    let mut reader = TableReader::new(next.as_ref(), &batches, reading, diagnostics);
+    let mut reader = TableReader::new(input, reading, diagnostics);
+    if let Some(first) = &next {
+        reader.reserve(first, 1 + batches.messages.len());
+    }
     while let Some(batch) = next {
         let (added, decoded) = rayon::join(|| reader.add(&batch), || batches.next());
         added?;
@@ -71,10 +71,19 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     reader.into_layout(source.name)
 }
 
+/// Finds the columns of a table, and reports what is odd about them.
+pub(super) fn table_columns(
+    schema: &Schema,
+    diagnostics: &mut Diagnostics,
+) -> Result<ColumnRoles, Problem> {
+    report_lost_zones(schema, diagnostics);
+    let version = schema::version(schema, diagnostics)?;
+    ColumnRoles::find(schema, version, diagnostics)
+}
+
 /// Decoded batches of a file, in order.
 struct BatchStream<'a> {
     source: Source<'a>,
-    input: &'a Input<'a>,
     decoder: Decoder<'a>,
     messages: slice::Iter<'a, Message>,
     total: usize,
@@ -100,7 +109,7 @@ impl BatchStream<'_> {
 }
 
 /// Layout under construction from the batches of a table.
-struct TableReader<'a> {
+pub(super) struct TableReader<'a> {
     input: &'a Input<'a>,
     reading: Reading<'a>,
     diagnostics: Diagnostics,
@@ -119,34 +128,17 @@ struct TableReader<'a> {
 }
 
 impl<'a> TableReader<'a> {
-    /// Reserves memory as if all batches were like the first, bounded by the size of the file.
-    fn new(
-        first: Option<&Decoded>,
-        batches: &BatchStream<'a>,
+    pub(super) fn new(
+        input: &'a Input<'a>,
         reading: Reading<'a>,
         diagnostics: Diagnostics,
     ) -> Self {
-        let mut assembler = PathAssembler::new(reading.columns.version);
-        let mut rows = 0;
-        if let Some(first) = first {
-            let file_bytes = batches.decoder.file_bytes();
-            let count = 1 + batches.messages.len();
-            let Decoded { batch, polygons } = first;
-            let point_bytes = polygons.coordinates.point_bytes();
-            let points = polygons.range_of_rows(0..polygons.len()).len();
-            let points = points.saturating_mul(count);
-            // A row has at least four points and a few bytes per column.
-            let row_bytes = 4 * point_bytes + 8 * batch.num_columns();
-            rows = batch.num_rows().saturating_mul(count);
-            rows = rows.min(file_bytes / row_bytes);
-            assembler.reserve(polygons, points.min(file_bytes / point_bytes), rows);
-        }
         Self {
-            input: batches.input,
+            input,
             reading,
             diagnostics,
-            assembler,
-            paths: PathColumns::new(reading, rows),
+            assembler: PathAssembler::new(reading.columns.version),
+            paths: PathColumns::new(reading, 0),
             elements: ElementTables::new(reading),
             pending: Vec::new(),
             batch_count: 0,
@@ -156,9 +148,23 @@ impl<'a> TableReader<'a> {
         }
     }
 
+    /// Reserves memory as if all batches were like the first, bounded by the size of the file.
+    fn reserve(&mut self, Decoded { batch, polygons }: &Decoded, batches: usize) {
+        let file_bytes = self.input.len();
+        let point_bytes = polygons.coordinates.point_bytes();
+        let points = polygons.range_of_rows(0..polygons.len()).len();
+        let points = points.saturating_mul(batches).min(file_bytes / point_bytes);
+        // A row has at least four points and a few bytes per column.
+        let row_bytes = 4 * point_bytes + 8 * batch.num_columns();
+        let rows = batch.num_rows().saturating_mul(batches);
+        let rows = rows.min(file_bytes / row_bytes);
+        self.assembler.reserve(polygons, points, rows);
+        self.paths = PathColumns::new(self.reading, rows);
+    }
+
     /// Assembles the curves of a batch, which frees their buffers, while the columns take previous
     /// batches.
-    fn add(&mut self, Decoded { batch, polygons }: &Decoded) -> Result<(), Problem> {
+    pub(super) fn add(&mut self, Decoded { batch, polygons }: &Decoded) -> Result<(), Problem> {
         let columns = self.reading.columns;
         let first_row = self.assembler.rows();
         let kinds = RowKinds::of(batch, columns)?;
@@ -250,7 +256,7 @@ impl<'a> TableReader<'a> {
         Ok(continues)
     }
 
-    fn into_layout(mut self, name: &str) -> Result<Layout, Problem> {
+    pub(super) fn into_layout(mut self, name: &str) -> Result<Layout, Problem> {
         self.assembler.end_rows();
         for batch in self.finished_batches() {
             self.paths.add(&batch)?;

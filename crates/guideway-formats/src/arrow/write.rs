@@ -3,16 +3,16 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use arrow_array::ArrayRef;
+use arrow_array::{ArrayRef, RecordBatch};
 use arrow_schema::Schema;
 use guideway_layout::Value;
 use guideway_spline::{Point, Real};
 
 use super::column_names::{CONTROL_POINTS, ID, PATHS_VERSION, VERSION_KEY};
 use super::write_column::{Cells, Column, IdCells, PolygonCells, Precision};
-use super::write_error::{WriteError, WriteProblem, fail};
 use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
 use crate::output::NewFile;
+use super::write_error::{WriteError, WriteProblem, fail};
 
 /// Writes a table of paths row by row, in memory independent of the number of rows.
 ///
@@ -72,7 +72,7 @@ impl ArrowWriter {
         let metadata = HashMap::from([(VERSION_KEY.to_owned(), PATHS_VERSION.to_string())]);
         let schema = Schema::new_with_metadata(fields, metadata);
         Ok(Self {
-            file: IpcFile::begin(file, schema)?,
+            file: IpcFile::begin(file, schema.into())?,
             ids,
             polygons,
             cells: columns.iter().map(Column::cells).collect(),
@@ -144,7 +144,8 @@ impl ArrowWriter {
         for (cells, column) in self.cells.iter_mut().zip(&self.columns) {
             arrays.push(cells.take(column));
         }
-        self.file.write(arrays)
+        let batch = RecordBatch::try_new(self.file.schema(), arrays)?;
+        self.file.write(&batch)
     }
 
     /// Writes the last batch and replaces the target. Returns the size of the file in bytes.

@@ -2,11 +2,10 @@
 
 use std::io::Write;
 
-use arrow_array::{ArrayRef, RecordBatch};
-use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
-use arrow_schema::{Schema, SchemaRef};
-
 use super::write_error::WriteProblem;
+use arrow_array::RecordBatch;
+use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
+use arrow_schema::SchemaRef;
 
 /// Rows per record batch.
 pub(super) const BATCH_ROWS: usize = 16_384;
@@ -23,12 +22,12 @@ pub(super) struct IpcFile<W: Write> {
 
 impl<W: Write> IpcFile<W> {
     /// Begins a file without compression.
-    pub(super) fn begin(out: W, schema: Schema) -> Result<Self, WriteProblem> {
+    pub(super) fn begin(out: W, schema: SchemaRef) -> Result<Self, WriteProblem> {
         // 64 bytes: buffers of a mapped file are then aligned for AVX-512 loads.
         let options = IpcWriteOptions::try_new(64, false, arrow_ipc::MetadataVersion::V5)?;
         Ok(Self {
             writer: FileWriter::try_new_with_options(out, &schema, options)?,
-            schema: schema.into(),
+            schema,
         })
     }
 
@@ -37,10 +36,14 @@ impl<W: Write> IpcFile<W> {
         self.writer.get_ref()
     }
 
+    /// The schema of its batches.
+    pub(super) fn schema(&self) -> SchemaRef {
+        self.schema.clone()
+    }
+
     /// Appends a batch.
-    pub(super) fn write(&mut self, columns: Vec<ArrayRef>) -> Result<(), WriteProblem> {
-        let batch = RecordBatch::try_new(self.schema.clone(), columns)?;
-        Ok(self.writer.write(&batch)?)
+    pub(super) fn write(&mut self, batch: &RecordBatch) -> Result<(), WriteProblem> {
+        Ok(self.writer.write(batch)?)
     }
 
     /// Ends the file. Returns the stream.

@@ -1,5 +1,6 @@
 //! The law itself: writes a layout, reads it back, and holds the differences against the losses.
 
+use guideway_formats::arrow::{RecordBatchIterator, RecordBatchReader, batches, read_batches};
 use guideway_formats::{Losses, ReadOptions, Target, WriteProblem, read_file};
 use guideway_layout::{CompareOptions, Layout, differences};
 
@@ -50,6 +51,37 @@ pub(crate) fn breaches(name: &str, layout: &Layout, target: Target) -> Vec<Breac
     };
     let listed: Vec<String> = losses.iter().map(|loss| loss.what.clone()).collect();
     let found = compare(layout, &again, &listed, tolerance_m(target));
+    found.into_iter().map(breach).collect()
+}
+
+/// Returns all breaches by record batches in memory, which lose nothing. Every batch comes in two
+/// slices.
+pub(crate) fn breaches_in_memory(name: &str, layout: &Layout) -> Vec<Breach> {
+    let again = || -> Result<Layout, Box<dyn std::error::Error>> {
+        let whole = batches(layout)?;
+        let schema = whole.schema();
+        let slices = whole.flat_map(|batch| match batch {
+            Ok(batch) => {
+                let (rows, middle) = (batch.num_rows(), batch.num_rows() / 2);
+                vec![
+                    Ok(batch.slice(0, middle)),
+                    Ok(batch.slice(middle, rows - middle)),
+                ]
+            }
+            error => vec![error],
+        });
+        let slices = RecordBatchIterator::new(slices, schema);
+        Ok(read_batches(slices, &ReadOptions::default())?)
+    };
+    let found = match again() {
+        Ok(again) => compare(layout, &again, &[], 0.0),
+        Err(error) => vec![error.to_string()],
+    };
+    let breach = |message| Breach {
+        target: Target::Arrow,
+        layout: name.to_owned(),
+        message: format!("in memory, {message}"),
+    };
     found.into_iter().map(breach).collect()
 }
 
