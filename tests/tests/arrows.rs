@@ -237,7 +237,7 @@ fn finds_forbidden_dependencies() {
 }
 
 #[test]
-fn default_features_off_exclude_gpu_libraries() {
+fn default_features_off_exclude_arrow_and_gpu_libraries() {
     let output = Command::new(env!("CARGO"))
         .args([
             "tree",
@@ -254,10 +254,10 @@ fn default_features_off_exclude_gpu_libraries() {
         .expect("cargo runs");
     let tree = String::from_utf8_lossy(&output.stdout);
     assert!(tree.contains("guideway-cpu"), "{tree}");
-    for gpu in ["wgpu ", "ash ", "glow ", "khronos-egl "] {
+    for heavy in ["arrow-", "wgpu ", "ash ", "glow ", "khronos-egl "] {
         assert!(
-            !tree.lines().any(|line| line.starts_with(gpu)),
-            "{gpu} is a dependency"
+            !tree.lines().any(|line| line.starts_with(heavy)),
+            "{heavy} is a dependency"
         );
     }
 }

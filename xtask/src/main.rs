@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use xtask::module_graph::workspace_circles;
 use xtask::style::check_repository;
 
@@ -67,6 +67,8 @@ fn test() -> Result<()> {
     prerequisites::software_devices()?;
     step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
     quick()?;
+    heading("each format by itself, and the library with one");
+    single_formats()?;
     heading("conformance, a few files per format");
     conformance::run(&["--quick".to_owned()])?;
     heading("documentation");
@@ -85,6 +87,23 @@ fn test() -> Result<()> {
     heading("fuzzing");
     // Twenty seconds each.
     fuzz(&["0.33".to_owned()])
+}
+
+/// Checks the formats crate with each of its formats alone, and the facade with LIF alone.
+fn single_formats() -> Result<()> {
+    let manifest = std::fs::read_to_string("crates/guideway-formats/Cargo.toml")?;
+    let all = manifest.split_once("\nall = [").map(|(_, rest)| rest);
+    let all = all.and_then(|rest| rest.split_once(']'));
+    let all = all.context("guideway-formats has no feature `all`")?.0;
+    let alone = |package, feature| {
+        let lib = ["check", "--quiet", "--lib", "--no-default-features"];
+        let package = ["--package", package, "--features", feature];
+        cargo(&lib).args(package).run()
+    };
+    for format in all.split('"').skip(1).step_by(2) {
+        alone("guideway-formats", format)?;
+    }
+    alone("guideway", "lif")
 }
 
 /// Workspaces with a lock file of their own.

@@ -56,6 +56,22 @@ impl Format {
         }
     }
 
+    /// Returns the feature of this crate with which the format is built.
+    pub fn feature(self) -> &'static str {
+        match self {
+            Self::Lif => "lif",
+            Self::OpenTcs => "opentcs",
+            Self::Vda5050 => "vda5050",
+            Self::GeoJson => "geojson",
+            Self::Dxf => "dxf",
+            Self::Svg => "svg",
+            Self::Rmf => "rmf",
+            Self::OpenDrive => "opendrive",
+            Self::Lanelet2 => "lanelet2",
+            Self::Arrow => "arrow",
+        }
+    }
+
     /// Returns the name with the kind of file.
     pub fn description(self) -> &'static str {
         match self {

@@ -13,6 +13,9 @@ mod read_ahead;
 #[cfg(unix)]
 pub(crate) use read_ahead::ReadAheadFile;
 
+/// Largest text that a layout keeps; of a longer one, parts are read.
+pub(crate) const MAX_KEPT_BYTES: usize = 256 << 20;
+
 /// Bytes in memory, or those of a file.
 pub(crate) enum Input<'a> {
     Bytes(&'a [u8]),

@@ -13,12 +13,21 @@
 //! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
 //! | write | layout | text, losses | `write*` per format; `clamped`, `driven`, `trajectory_writer`, `*_nodes`, `*_losses` |
 //! | save | bytes | a file that replaces its target | `output` |
+//!
+//! Each format has a feature, which is on by default.
 
+#![cfg_attr(
+    not(feature = "all"),
+    allow(unused, reason = "formats share code that no single one uses whole")
+)]
+
+#[cfg(feature = "arrow")]
 pub mod arrow;
 mod builder;
 mod clamped;
 mod common_losses;
 mod driven;
+#[cfg(feature = "dxf")]
 pub mod dxf;
 mod ellipse;
 mod encoding;
@@ -27,20 +36,27 @@ mod error;
 mod fields;
 mod finite;
 mod format;
+#[cfg(feature = "geojson")]
 pub mod geojson;
 mod input;
 mod json;
+#[cfg(feature = "lanelet2")]
 mod lanelet2;
+#[cfg(feature = "lif")]
 pub mod lif;
 mod losses;
 mod network_losses;
 mod node_rows;
+#[cfg(feature = "opendrive")]
 mod opendrive;
+#[cfg(feature = "opentcs")]
 pub mod opentcs;
 mod other_format;
 mod output;
+mod pair_reader;
 pub mod raster;
 mod read;
+#[cfg(feature = "rmf")]
 pub mod rmf;
 pub mod ros_map;
 mod sniff;
@@ -55,15 +71,16 @@ mod trajectory_writer;
 mod unique_names;
 mod unpack;
 mod user_error;
+#[cfg(feature = "vda5050")]
 pub mod vda5050;
 mod wgs84;
+mod write_error;
 mod xml;
 mod xml_builder;
 mod xml_text;
 mod yaml;
 mod yaml_json;
 
-pub use arrow::{WriteError, WriteProblem};
 pub use error::{LIMIT_OPTIONS, Problem, ReadError};
 pub use format::Format;
 pub use losses::{Loss, Losses};
@@ -75,3 +92,4 @@ pub use read::{read_bytes, read_file, read_stream};
 pub use sniff::sniff;
 pub use source::{Progress, ReadOptions};
 pub use target::Target;
+pub use write_error::{WriteError, WriteProblem};

@@ -4,12 +4,12 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
-use guideway_layout::{Layout, Limits, try_reserve};
+use guideway_layout::{Layout, Limits, Place, try_reserve};
 
 use crate::encoding::to_utf8;
 use crate::input::Input;
 #[cfg(unix)]
-use crate::input::ReadAheadFile;
+use crate::input::{MAX_KEPT_BYTES, ReadAheadFile};
 use crate::other_format::other_format;
 use crate::ros_map::is_ros_map;
 #[cfg(unix)]
@@ -39,10 +39,7 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
         let file = ReadAheadFile::new(file, size, path);
         let source = Source { name, options };
         source.check_format(format)?;
-        return match format {
-            Format::Arrow => crate::arrow::read(source, &Input::File(&file)),
-            _ => crate::lif::read(source, &Input::File(&file)),
-        };
+        return read_input(source, format, &Input::File(&file));
     }
     let bytes = read_whole(&mut file, options).map_err(fail)?;
     read_bytes(&name, &bytes, options)
@@ -87,18 +84,48 @@ pub fn read_bytes(
     }
     format.map_or(Ok(()), |format| source.check_format(format))?;
     match format {
-        Some(Format::Lif) => crate::lif::read(source, &Input::Bytes(bytes)),
-        Some(Format::Arrow) => crate::arrow::read(source, &Input::Bytes(bytes)),
+        Some(format @ (Format::Arrow | Format::Lif)) => {
+            read_input(source, format, &Input::Bytes(bytes))
+        }
+        #[cfg(feature = "opentcs")]
         Some(Format::OpenTcs) => crate::opentcs::read(source, bytes),
+        #[cfg(feature = "dxf")]
         Some(Format::Dxf) => crate::dxf::read(source, bytes),
+        #[cfg(feature = "svg")]
         Some(Format::Svg) => crate::svg::read(source, bytes),
+        #[cfg(feature = "rmf")]
         Some(Format::Rmf) => crate::rmf::read(source, bytes),
+        #[cfg(feature = "opendrive")]
         Some(Format::OpenDrive) => crate::opendrive::read(source, bytes),
+        #[cfg(feature = "lanelet2")]
         Some(Format::Lanelet2) => crate::lanelet2::read(source, bytes),
+        #[cfg(feature = "geojson")]
         Some(Format::GeoJson) => crate::geojson::read(source, bytes),
+        #[cfg(feature = "vda5050")]
         Some(Format::Vda5050) => crate::vda5050::read(source, bytes),
+        #[cfg(not(feature = "all"))]
+        Some(format) => Err(source.fail(not_built(format))),
         None if is_ros_map(bytes) => Err(source.fail(Problem::FloorPlan)),
         None => Err(source.fail(unknown_format(bytes))),
+    }
+}
+
+/// Reads a layout of a format whose reader takes parts of its input.
+fn read_input(source: Source<'_>, format: Format, input: &Input<'_>) -> Result<Layout, ReadError> {
+    match format {
+        #[cfg(feature = "arrow")]
+        Format::Arrow => crate::arrow::read(source, input),
+        #[cfg(feature = "lif")]
+        Format::Lif => crate::lif::read(source, input),
+        other => Err(source.fail(not_built(other))),
+    }
+}
+
+fn not_built(format: Format) -> Problem {
+    Problem::Unsupported {
+        place: Place::element("the file"),
+        what: format!("the format {} in this build", format.name()),
+        remedy: format!("Build Guideway with its feature `{}`", format.feature()),
     }
 }
 
@@ -111,7 +138,7 @@ fn format_in_parts(file: &mut File, size: u64) -> Result<Option<Format>, Problem
         .read_to_end(&mut head)
         .map_err(io_problem)?;
     io::Seek::rewind(file).map_err(io_problem)?;
-    let is_large = size > crate::lif::MAX_KEPT_BYTES as u64;
+    let is_large = size > MAX_KEPT_BYTES as u64;
     Ok(match sniff(&head) {
         Some(Format::Arrow) => Some(Format::Arrow),
         Some(Format::Lif) if is_large && has_lif_key(&head) => Some(Format::Lif),

@@ -1,6 +1,7 @@
 //! Format detection: finds the format of a file from its first bytes, regardless of its name.
 
 use crate::Format;
+use crate::pair_reader::{PairReader, SENTINEL};
 use crate::text::without_mark;
 use crate::xml::Prolog;
 
@@ -23,7 +24,7 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
     if bytes.starts_with(b"ARROW1") || bytes.starts_with(&[0xFF; 4]) {
         return Some(Format::Arrow);
     }
-    if crate::dxf::is_dxf(bytes) {
+    if is_dxf(bytes) {
         return Some(Format::Dxf);
     }
     let text = without_mark(bytes);
@@ -44,9 +45,33 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
                 let format = root_keys(object).find_map(format_of_key);
                 format.filter(|format| matches!(format, Format::GeoJson | Format::Vda5050))
             }
-            None => crate::rmf::is_rmf(text).then_some(Format::Rmf),
+            None => is_rmf(text).then_some(Format::Rmf),
         },
     }
+}
+
+/// Tells if bytes begin like a DXF file: with the binary sentinel, or with the first SECTION after
+/// optional comments.
+fn is_dxf(bytes: &[u8]) -> bool {
+    if bytes.starts_with(SENTINEL) {
+        return true;
+    }
+    let mut pairs = PairReader::new(bytes);
+    while let Ok(Some(pair)) = pairs.next() {
+        if pair.code != 999 {
+            return pair.code == 0 && pair.text() == b"SECTION";
+        }
+    }
+    false
+}
+
+/// Tells if a text has the top-level YAML key `levels` of buildings and graphs.
+fn is_rmf(text: &[u8]) -> bool {
+    let mut lines = text.split(|&byte| byte == b'\n');
+    lines.any(|line| {
+        let rest = line.strip_prefix(b"levels:");
+        rest.is_some_and(|rest| matches!(rest.first(), None | Some(b' ' | b'\t' | b'\r' | b'#')))
+    })
 }
 
 /// Returns `true` if the first key of a root object that one format uses is one of LIF.

@@ -6,11 +6,22 @@ use std::time::SystemTime;
 
 use guideway_layout::Layout;
 
+#[cfg(feature = "arrow")]
+use crate::arrow;
+#[cfg(feature = "dxf")]
+use crate::dxf;
+#[cfg(feature = "geojson")]
+use crate::geojson;
+#[cfg(feature = "lif")]
 use crate::lif::{self, Version};
+#[cfg(feature = "opentcs")]
+use crate::opentcs;
 use crate::output::replace_file;
-use crate::{
-    Format, Losses, WriteError, WriteProblem, arrow, dxf, geojson, opentcs, rmf, svg, vda5050,
-};
+#[cfg(feature = "rmf")]
+use crate::rmf;
+#[cfg(feature = "vda5050")]
+use crate::vda5050;
+use crate::{Format, Losses, WriteError, WriteProblem, svg};
 
 /// A format that can be written, in one of its versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,19 +53,30 @@ pub enum Target {
 }
 
 impl Target {
-    /// All targets.
+    /// All targets of this build.
     pub const ALL: &[Self] = &[
+        #[cfg(feature = "arrow")]
         Self::Arrow,
+        #[cfg(feature = "dxf")]
         Self::Dxf,
+        #[cfg(feature = "geojson")]
         Self::GeoJson,
+        #[cfg(feature = "lif")]
         Self::Lif1,
+        #[cfg(feature = "lif")]
         Self::Lif2,
+        #[cfg(feature = "geojson")]
         Self::Nav2,
+        #[cfg(feature = "opentcs")]
         Self::OpenTcs6,
+        #[cfg(feature = "opentcs")]
         Self::OpenTcs7,
+        #[cfg(feature = "rmf")]
         Self::Rmf,
         Self::Svg,
+        #[cfg(feature = "vda5050")]
         Self::Vda2,
+        #[cfg(feature = "vda5050")]
         Self::Vda3,
     ];
 
@@ -152,37 +174,44 @@ impl Target {
     /// The target that holds everything that the file of a layout held: that of the same format and
     /// version. `None` if the format of the file has no writer.
     pub fn of_source(layout: &Layout) -> Option<Self> {
+        #[cfg(feature = "opentcs")]
         match opentcs::Version::of_layout(layout) {
             Some(opentcs::Version::V6) => return Some(Self::OpenTcs6),
             Some(opentcs::Version::V7) => return Some(Self::OpenTcs7),
             None => {}
         }
+        #[cfg(feature = "vda5050")]
         match vda5050::Version::of_layout(layout) {
             Some(vda5050::Version::V2) => return Some(Self::Vda2),
             Some(vda5050::Version::V3) => return Some(Self::Vda3),
             None => {}
         }
+        #[cfg(feature = "lif")]
         match Version::of_layout(layout) {
-            Some(Version::V1) => Some(Self::Lif1),
-            Some(Version::V2) => Some(Self::Lif2),
-            None => {
-                let provenance = &layout.provenance;
-                let is = |format: Format| provenance.format == format.name();
-                match provenance.format_version.as_str() {
-                    geojson::ROUTE_GRAPH if is(Format::GeoJson) => return Some(Self::Nav2),
-                    rmf::NAVIGATION_GRAPH if is(Format::Rmf) => return Some(Self::Rmf),
-                    _ => {}
-                }
-                let targets = [
-                    (Format::GeoJson, Self::GeoJson),
-                    (Format::Arrow, Self::Arrow),
-                    (Format::Dxf, Self::Dxf),
-                    (Format::Svg, Self::Svg),
-                ];
-                let found = targets.into_iter().find(|(format, _)| is(*format));
-                found.map(|(_, target)| target)
-            }
+            Some(Version::V1) => return Some(Self::Lif1),
+            Some(Version::V2) => return Some(Self::Lif2),
+            None => {}
         }
+        let provenance = &layout.provenance;
+        let is = |format: Format| provenance.format == format.name();
+        match provenance.format_version.as_str() {
+            #[cfg(feature = "geojson")]
+            geojson::ROUTE_GRAPH if is(Format::GeoJson) => return Some(Self::Nav2),
+            #[cfg(feature = "rmf")]
+            rmf::NAVIGATION_GRAPH if is(Format::Rmf) => return Some(Self::Rmf),
+            _ => {}
+        }
+        let targets = [
+            (Format::GeoJson, Self::GeoJson),
+            (Format::Arrow, Self::Arrow),
+            (Format::Dxf, Self::Dxf),
+            (Format::Svg, Self::Svg),
+        ];
+        let mut targets = targets
+            .iter()
+            .filter(|(_, target)| Self::ALL.contains(target));
+        let found = targets.find(|(format, _)| is(*format));
+        found.map(|&(_, target)| target)
     }
 
     /// The target in which a layout is saved under a name: by the extension, or by the source of
@@ -237,22 +266,38 @@ impl Target {
     /// When the stream fails, or when the target is an order and the paths do not form one route.
     pub fn write(self, layout: &Layout, out: &mut impl Write) -> Result<Losses, WriteProblem> {
         let exported = SystemTime::now();
+        #[cfg(feature = "lif")]
         let lif = |version| lif::WriteOptions { version, exported };
+        #[cfg(feature = "vda5050")]
         let vda5050 = |version| vda5050::WriteOptions { version, exported };
+        #[cfg(feature = "geojson")]
         let geojson = geojson::WriteOptions::default();
         let losses = match self {
+            #[cfg(feature = "arrow")]
             Self::Arrow => arrow::write_layout(layout, out, &arrow::WriteOptions::default())?,
+            #[cfg(feature = "dxf")]
             Self::Dxf => dxf::write_layout(layout, out)?,
+            #[cfg(feature = "geojson")]
             Self::GeoJson => geojson::write_layout(layout, out, &geojson)?,
+            #[cfg(feature = "lif")]
             Self::Lif1 => lif::write_layout(layout, out, &lif(Version::V1))?,
+            #[cfg(feature = "lif")]
             Self::Lif2 => lif::write_layout(layout, out, &lif(Version::V2))?,
+            #[cfg(feature = "geojson")]
             Self::Nav2 => geojson::write_route_graph(layout, out, &geojson)?,
+            #[cfg(feature = "opentcs")]
             Self::OpenTcs6 => opentcs::write_layout(layout, out, opentcs::Version::V6)?,
+            #[cfg(feature = "opentcs")]
             Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7)?,
+            #[cfg(feature = "rmf")]
             Self::Rmf => rmf::write_navigation_graph(layout, out)?,
             Self::Svg => svg::write_layout(layout, out)?,
+            #[cfg(feature = "vda5050")]
             Self::Vda2 => vda5050::write_layout(layout, out, &vda5050(vda5050::Version::V2))?,
+            #[cfg(feature = "vda5050")]
             Self::Vda3 => vda5050::write_layout(layout, out, &vda5050(vda5050::Version::V3))?,
+            #[cfg(not(feature = "all"))]
+            other => return Err(WriteProblem::NotBuilt(other.name())),
         };
         Ok(losses)
     }

@@ -178,6 +178,7 @@ pub use guideway_cpu as cpu;
 pub use guideway_document as document;
 pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
+#[cfg(feature = "arrow")]
 pub use guideway_formats::arrow;
 pub use guideway_layout as layout;
 pub use guideway_network as network;

@@ -21,7 +21,7 @@ use super::schema::is_reserved;
 use super::write_column::Precision;
 use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES};
 use crate::finite::check_finite;
-use super::write_error::WriteProblem;
+use crate::write_error::WriteProblem;
 
 /// Returns a layout as record batches, which hold all of it: of version 1 of the table if it has
 /// nothing but paths, else of version 2.

@@ -14,7 +14,7 @@ use super::layout_columns::Source;
 use super::layout_lists as lists;
 use super::layout_rows::Row;
 use super::write_column::{PolygonCells, Precision};
-use super::write_error::WriteProblem;
+use crate::write_error::WriteProblem;
 
 impl Source<'_> {
     /// Returns the bytes of text of a row, as far as they can be many.

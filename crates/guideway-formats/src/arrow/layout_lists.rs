@@ -17,7 +17,7 @@ use super::column_names::{
     BOTH, DEGREE, FORWARD, KNOTS, MEMBER_ELEMENT, MEMBER_INDEX, POINTS, WEIGHTS,
 };
 use super::element::Element;
-use super::write_error::WriteProblem;
+use crate::write_error::WriteProblem;
 
 /// Names of the directions, in the order of their type.
 pub(super) const DIRECTIONS: [&str; 2] = [FORWARD, BOTH];

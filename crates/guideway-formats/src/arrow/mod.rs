@@ -16,7 +16,7 @@
 //! | elements | rows of other kinds | their tables | `elements` |
 //! | read | all of these, batch by batch on several threads | layout | `read`, `read_batches`, `reading` |
 //! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems` |
-//! | write | layout, or rows | batches, file, losses | `batches`, `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file`, `write_error` |
+//! | write | layout, or rows | batches, file, losses | `batches`, `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file` |
 
 mod assemble;
 mod attribute_columns;
@@ -66,7 +66,6 @@ mod time_zones;
 mod type_lists;
 mod write;
 mod write_column;
-mod write_error;
 mod write_file;
 mod write_layout;
 mod written_curves;
@@ -79,4 +78,4 @@ pub use self::read_batches::read_batches;
 pub use self::write::ArrowWriter;
 pub use self::write_column::{Column, ColumnType, Precision};
 pub use self::write_layout::{WriteOptions, write_layout};
-pub use self::write_error::{WriteError, WriteProblem};
+pub use crate::write_error::{WriteError, WriteProblem};

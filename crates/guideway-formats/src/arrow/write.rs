@@ -12,7 +12,7 @@ use super::column_names::{CONTROL_POINTS, ID, PATHS_VERSION, VERSION_KEY};
 use super::write_column::{Cells, Column, IdCells, PolygonCells, Precision};
 use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
 use crate::output::NewFile;
-use super::write_error::{WriteError, WriteProblem, fail};
+use crate::write_error::{WriteError, WriteProblem, fail};
 
 /// Writes a table of paths row by row, in memory independent of the number of rows.
 ///

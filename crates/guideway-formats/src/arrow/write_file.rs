@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::write_error::WriteProblem;
+use crate::write_error::WriteProblem;
 use arrow_array::RecordBatch;
 use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
 use arrow_schema::SchemaRef;

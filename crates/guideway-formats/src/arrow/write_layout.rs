@@ -10,7 +10,7 @@ use super::write_column::Precision;
 use super::write_file::IpcFile;
 use crate::Losses;
 use crate::finite::check_finite;
-use super::write_error::WriteProblem;
+use crate::write_error::WriteProblem;
 
 /// Largest distance by which `f32` may move a control point, in meters; beyond it `f64` is used.
 const F32_ERROR_M: f64 = 1e-5;

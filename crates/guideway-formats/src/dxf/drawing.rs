@@ -11,12 +11,12 @@ use super::clips::Clips;
 use super::entity::{Entity, known_kind, shape};
 use super::entity_counts::EntityCounts;
 use super::header::UnitVariables;
-use super::pair_reader::StrayLines;
 use super::records::{Record, RecordReader};
 use super::shape::{Insert, Polyline, Shape, Vertex, plane};
 use super::style::Layers;
 use super::text::TextDecoder;
 use crate::Problem;
+use crate::pair_reader::StrayLines;
 
 /// A scanned drawing.
 #[derive(Default)]

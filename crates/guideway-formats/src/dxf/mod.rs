@@ -2,7 +2,7 @@
 //!
 //! | Stage | Input | Output | File |
 //! |---|---|---|---|
-//! | tokenize | bytes | pairs of group code and value | `pair_reader` |
+//! | tokenize | bytes | pairs of group code and value | `crate::pair_reader` |
 //! | group | pairs | records (group code 0 up to the next one) | `records` |
 //! | parse | records | entities, layers, blocks | `drawing`, `entity`, `shape`, `outlines`, `style`, `header`, `clips`, `text` |
 //! | map | entities, INSERTs | paths with colors | `entity_mapper`, `clip_region`, `shapes`, `fit_spline` |
@@ -23,7 +23,6 @@ mod fit_spline;
 mod header;
 mod notes;
 mod outlines;
-mod pair_reader;
 mod pair_writer;
 mod read;
 mod records;
@@ -35,5 +34,5 @@ mod write;
 mod write_sections;
 mod xdata;
 
-pub(crate) use self::read::{is_dxf, read};
+pub(crate) use self::read::read;
 pub use self::write::write_layout;

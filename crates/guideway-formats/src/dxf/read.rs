@@ -11,7 +11,6 @@ use super::entity_counts::EntityCounts;
 use super::entity_mapper::{CLIP_REMEDY, EntityMapper, InsertContext};
 use super::header::{insertion_unit_m, release_name};
 use super::notes::is_note;
-use super::pair_reader::{PairReader, SENTINEL};
 use super::records::{Record, RecordReader};
 use super::text::is_known_page;
 use crate::builder::{Builder, PlaceFn};
@@ -21,21 +20,6 @@ use crate::{Problem, ReadError};
 /// The text budget is at least that of a file of this size: INSERTs repeat layer names and handles,
 /// so a small file may legally expand to much text.
 const MIN_TEXT_BUDGET_BYTES: usize = 4 << 20;
-
-/// Tells if bytes begin like a DXF file: with the binary sentinel, or with the first SECTION after
-/// optional comments.
-pub(crate) fn is_dxf(bytes: &[u8]) -> bool {
-    if bytes.starts_with(SENTINEL) {
-        return true;
-    }
-    let mut pairs = PairReader::new(bytes);
-    while let Ok(Some(pair)) = pairs.next() {
-        if pair.code != 999 {
-            return pair.code == 0 && pair.text() == b"SECTION";
-        }
-    }
-    false
-}
 
 /// Reads a drawing into a layout.
 ///

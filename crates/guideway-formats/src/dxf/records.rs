@@ -5,8 +5,8 @@ use std::cell::Cell;
 use guideway_layout::Limits;
 
 use super::affine3::Vector3;
-use super::pair_reader::{Pair, PairReader, StrayLines};
 use crate::Problem;
+use crate::pair_reader::{Pair, PairReader, StrayLines};
 
 /// Upper bound of pairs per curve point. Derived: three coordinates, a weight, a bulge, two widths.
 const PAIRS_PER_POINT: usize = 7;

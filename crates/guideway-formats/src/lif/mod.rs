@@ -23,8 +23,6 @@ mod type_entries;
 mod version;
 mod write;
 
-#[cfg(unix)]
-pub(crate) use self::read::MAX_KEPT_BYTES;
 pub(crate) use self::read::read;
 pub use self::version::Version;
 pub use self::write::{WriteOptions, write_layout};

@@ -6,13 +6,10 @@ use guideway_layout::{Layout, Limits, Place};
 
 use super::mapper::Mapper;
 use super::model::{Root, is_long_array};
-use crate::input::Input;
+use crate::input::{Input, MAX_KEPT_BYTES};
 use crate::json::{self, ArrayFault, Field, Skeleton};
 use crate::source::Source;
 use crate::{Problem, ReadError, ReadOptions, text};
-
-/// Largest text that a layout keeps.
-pub(crate) const MAX_KEPT_BYTES: usize = 256 << 20;
 
 /// Keys that the error of a file that is not LIF names.
 const MAX_KEYS: usize = 5;

@@ -40,15 +40,6 @@ use crate::source::Source;
 use crate::yaml::Yaml;
 use crate::{Problem, ReadError, text};
 
-/// Tells if a text has the top-level YAML key `levels` of buildings and graphs.
-pub(crate) fn is_rmf(text: &[u8]) -> bool {
-    let mut lines = text.split(|&byte| byte == b'\n');
-    lines.any(|line| {
-        let rest = line.strip_prefix(b"levels:");
-        rest.is_some_and(|rest| matches!(rest.first(), None | Some(b' ' | b'\t' | b'\r' | b'#')))
-    })
-}
-
 /// Reads a building, a navigation graph or a site into a layout.
 ///
 /// # Errors

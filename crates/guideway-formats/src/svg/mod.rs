@@ -11,28 +11,47 @@
 //!
 //! The reader uses `svgtypes`, the parser below `usvg`, and not `usvg` itself: `usvg` computes in
 //! single precision, converts arcs with an error of up to 0.1 units, drops unpainted shapes without
-//! a report, and expands `use` and markers to a million elements.
+//! a report, and expands `use` and markers to a million elements. Only the reader needs the feature
+//! `svg`.
 
+#[cfg(feature = "svg")]
 mod cascade;
+#[cfg(feature = "svg")]
 mod conditions;
+#[cfg(feature = "svg")]
 mod context;
+#[cfg(feature = "svg")]
 mod element_counts;
+#[cfg(feature = "svg")]
 mod element_transform;
+#[cfg(feature = "svg")]
 mod length;
+#[cfg(feature = "svg")]
 mod page;
+#[cfg(feature = "svg")]
 mod path_builder;
+#[cfg(feature = "svg")]
 mod read;
+#[cfg(feature = "svg")]
 mod repeat_budget;
+#[cfg(feature = "svg")]
 mod shape_mapper;
+#[cfg(feature = "svg")]
 mod shapes;
+#[cfg(feature = "svg")]
 mod style;
+#[cfg(feature = "svg")]
 mod style_sheet;
 mod svg_writer;
+#[cfg(feature = "svg")]
 mod transform;
+#[cfg(feature = "svg")]
 mod tree_walker;
+#[cfg(feature = "svg")]
 mod viewport;
 mod write;
 
+#[cfg(feature = "svg")]
 pub(crate) use self::read::read;
 pub use self::svg_writer::{PathData, Stroke, SvgWriter};
 pub use self::write::write_layout;

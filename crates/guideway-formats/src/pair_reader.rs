@@ -9,20 +9,20 @@ use crate::Problem;
 use crate::text::BYTE_ORDER_MARK;
 
 /// The first bytes of a binary file.
-pub(super) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
+pub(crate) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// A group code with its value.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair<'b> {
-    pub(super) code: i32,
-    pub(super) value: Value<'b>,
+pub(crate) struct Pair<'b> {
+    pub(crate) code: i32,
+    pub(crate) value: Value<'b>,
     /// Line of the code, from 1; `None` in a binary file.
-    pub(super) line: Option<u32>,
+    pub(crate) line: Option<u32>,
 }
 
 /// A value as stored in the file; in an ASCII file every value is text.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Value<'b> {
+pub(crate) enum Value<'b> {
     Text(&'b [u8]),
     Real(f64),
     Int(i64),
@@ -30,7 +30,7 @@ pub(super) enum Value<'b> {
 
 impl<'b> Pair<'b> {
     /// The text; empty for a binary number.
-    pub(super) fn text(&self) -> &'b [u8] {
+    pub(crate) fn text(&self) -> &'b [u8] {
         match self.value {
             Value::Text(text) => text,
             _ => b"",
@@ -38,7 +38,7 @@ impl<'b> Pair<'b> {
     }
 
     /// The value as a finite number.
-    pub(super) fn real(&self) -> Option<f64> {
+    pub(crate) fn real(&self) -> Option<f64> {
         let real = match self.value {
             Value::Real(real) => real,
             Value::Int(int) => int as f64,
@@ -48,7 +48,7 @@ impl<'b> Pair<'b> {
     }
 
     /// The value as an integer.
-    pub(super) fn int(&self) -> Option<i64> {
+    pub(crate) fn int(&self) -> Option<i64> {
         match self.value {
             Value::Int(int) => Some(int),
             // Some writers append a decimal point to integers.
@@ -59,7 +59,7 @@ impl<'b> Pair<'b> {
 
 /// Reads pairs in sequence. A copy continues from the same offset.
 #[derive(Clone, Copy)]
-pub(super) struct PairReader<'b> {
+pub(crate) struct PairReader<'b> {
     bytes: &'b [u8],
     offset: usize,
     line: u32,
@@ -70,9 +70,9 @@ pub(super) struct PairReader<'b> {
 
 /// Lines of an ASCII file that are no part of a pair.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StrayLines {
-    pub(super) count: u32,
-    pub(super) first: u32,
+pub(crate) struct StrayLines {
+    pub(crate) count: u32,
+    pub(crate) first: u32,
 }
 
 /// Stray lines up to which a file is read. Beyond, it is no drawing.
@@ -88,7 +88,7 @@ enum Encoding {
 }
 
 impl<'b> PairReader<'b> {
-    pub(super) fn new(bytes: &'b [u8]) -> Self {
+    pub(crate) fn new(bytes: &'b [u8]) -> Self {
         let (offset, encoding) = match bytes.strip_prefix(SENTINEL) {
             // The first pair is (0, SECTION) or (999, comment). With one-byte codes it begins with
             // the bytes 00 53 or FF.
@@ -106,17 +106,17 @@ impl<'b> PairReader<'b> {
         }
     }
 
-    pub(super) fn is_binary(&self) -> bool {
+    pub(crate) fn is_binary(&self) -> bool {
         self.encoding != Encoding::Ascii
     }
 
     /// Number of bytes read.
-    pub(super) fn position(&self) -> usize {
+    pub(crate) fn position(&self) -> usize {
         self.offset
     }
 
     /// The stray lines so far.
-    pub(super) fn stray(&self) -> Option<StrayLines> {
+    pub(crate) fn stray(&self) -> Option<StrayLines> {
         self.stray
     }
 
@@ -125,7 +125,7 @@ impl<'b> PairReader<'b> {
     ///
     /// # Errors
     /// When a group code is malformed or unknown.
-    pub(super) fn next(&mut self) -> Result<Option<Pair<'b>>, Problem> {
+    pub(crate) fn next(&mut self) -> Result<Option<Pair<'b>>, Problem> {
         let pair = match self.encoding {
             Encoding::Ascii => self.next_text(),
             _ => self.next_binary(),

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+#[cfg(feature = "arrow")]
 use arrow_schema::ArrowError;
 use guideway_layout::shown_path;
 
@@ -47,7 +48,11 @@ pub enum WriteProblem {
         /// Description of the place where the paths do not connect.
         detail: String,
     },
+    /// This build has no writer of the format.
+    #[error("this build does not write {0}")]
+    NotBuilt(&'static str),
     /// The Arrow library reported an error.
+    #[cfg(feature = "arrow")]
     #[error("cannot encode the table: {0}")]
     Arrow(#[source] ArrowError),
 }
@@ -64,6 +69,8 @@ impl WriteError {
             WriteProblem::NotARoute { .. } => {
                 "Keep the paths of one route only, in the order in which a vehicle drives them"
             }
+            WriteProblem::NotBuilt(_) => "Build Guideway with the feature of that format",
+            #[cfg(feature = "arrow")]
             WriteProblem::Arrow(_) => "Please report this",
         }
     }
@@ -75,6 +82,7 @@ impl From<SaveError> for WriteError {
     }
 }
 
+#[cfg(feature = "arrow")]
 impl From<ArrowError> for WriteProblem {
     fn from(error: ArrowError) -> Self {
         match error {
@@ -85,7 +93,7 @@ impl From<ArrowError> for WriteProblem {
 }
 
 /// Adds the target to a problem.
-pub(super) fn fail(path: &Path, problem: WriteProblem) -> WriteError {
+pub(crate) fn fail(path: &Path, problem: WriteProblem) -> WriteError {
     WriteError {
         path: path.to_owned(),
         problem,
