@@ -197,8 +197,30 @@ fn uri(file: &Path) -> String {
 }
 
 fn absolute_uri(file: &Path) -> String {
-    let path = relative(file, Path::new("/"));
-    format!("file:///{}", encoded(path.trim_start_matches('/')))
+    let path = file.to_string_lossy();
+    match cfg!(windows) {
+        true => windows_uri(&path),
+        false => format!("file:///{}", encoded(path.trim_start_matches('/'))),
+    }
+}
+
+/// The URI of `C:\a` or `\\server\a` (RFC 8089, appendix E), also with the prefix `\\?\` of long
+/// paths.
+fn windows_uri(path: &str) -> String {
+    let path = path.replace('\\', "/");
+    let long = path.strip_prefix("//?/");
+    let share = match long {
+        Some(long) => long.strip_prefix("UNC/"),
+        None => path.strip_prefix("//"),
+    };
+    if let Some(share) = share {
+        return format!("file://{}", encoded(share));
+    }
+    let path = long.unwrap_or(&path);
+    match path.split_once(':') {
+        Some((drive, rest)) => format!("file:///{drive}:{}", encoded(rest)),
+        None => format!("file:///{}", encoded(path.trim_start_matches('/'))),
+    }
 }
 
 fn encoded(path: &str) -> String {
@@ -226,6 +248,18 @@ mod tests {
             "file:///tmp/x%231.dxf"
         );
         assert_eq!(uri(Path::new("./src/x.json")), "src/x.json");
+    }
+
+    #[test]
+    fn encodes_files_of_windows_as_uris() {
+        for (path, uri) in [
+            (r"Z:\Hall 2\x.json", "file:///Z:/Hall%202/x.json"),
+            (r"\\?\C:\x.json", "file:///C:/x.json"),
+            (r"\\server\plans\x.json", "file://server/plans/x.json"),
+            (r"\\?\UNC\server\x.json", "file://server/x.json"),
+        ] {
+            assert_eq!(windows_uri(path), uri);
+        }
     }
 
     #[test]
