@@ -24,6 +24,16 @@ pub struct DeviceCandidate {
     pub color_tolerance: Tolerance,
     /// Fewest scenes of the suite that it must draw.
     pub least_scenes: usize,
+    /// Number of this variant among those of its method that take turns, and how many do.
+    turn: (usize, usize),
+}
+
+impl DeviceCandidate {
+    /// Returns `true` if the variant draws the scene of this number. The variants of a method take
+    /// turns on a software device, where each of them would take minutes.
+    pub fn draws(&self, scene: usize) -> bool {
+        scene % self.turn.1 == self.turn.0
+    }
 }
 
 /// For `grid` with coverage by the distance to the nearest line. Pictures of edges only and of
@@ -140,37 +150,64 @@ pub fn tiles() -> Result<Tiles, DeviceError> {
 
 /// Every candidate, or the reason why it cannot run.
 fn all() -> Vec<Result<DeviceCandidate, BoxError>> {
-    let grids = GRIDS.map(|(variant, tolerance)| {
-        Ok(DeviceCandidate {
-            name: format!("grid {variant}"),
-            method: Box::new(grid(variant)?),
-            tolerance,
-            color_tolerance: tolerance,
-            least_scenes: 150,
-        })
-    });
-    let mut all: Vec<_> = grids.into();
-    all.extend(TREES.map(|(structure, variant, tolerance)| {
-        Ok(DeviceCandidate {
-            name: format!("{} {variant}", structure.name()),
-            method: Box::new(tree(structure, variant)?),
-            tolerance,
-            color_tolerance: COLORED_SUB_SAMPLES,
-            least_scenes: 150,
-        })
-    }));
-    let tiles = tiles().map(|tiles| tiles_candidate("gpu", tiles));
-    all.push(tiles.map_err(BoxError::from));
-    all
-}
-
-fn tiles_candidate(name: &str, tiles: Tiles) -> DeviceCandidate {
-    DeviceCandidate {
-        name: name.to_owned(),
+    let grids = GRIDS
+        .iter()
+        .enumerate()
+        .map(|(number, &(variant, tolerance))| {
+            let name = format!("grid {variant}");
+            let method = Box::new(grid(variant)?);
+            let tolerances = [tolerance; 2];
+            Ok(variant_candidate(
+                name,
+                method,
+                tolerances,
+                (number, GRIDS.len()),
+            ))
+        });
+    let trees = TREES
+        .iter()
+        .enumerate()
+        .map(|(number, &(structure, variant, tolerance))| {
+            let name = format!("{} {variant}", structure.name());
+            let method = Box::new(tree(structure, variant)?);
+            let tolerances = [tolerance, COLORED_SUB_SAMPLES];
+            // Half of the variants are of either structure.
+            let turns = TREES.len() / 2;
+            Ok(variant_candidate(
+                name,
+                method,
+                tolerances,
+                (number % turns, turns),
+            ))
+        });
+    let tiles = tiles().map(|tiles| DeviceCandidate {
+        name: "gpu".to_owned(),
         method: Box::new(tiles),
         tolerance: Tolerance::STANDARD,
         color_tolerance: Tolerance::STANDARD,
         least_scenes: 230,
+        turn: (0, 1),
+    });
+    let tiles = tiles.map_err(BoxError::from);
+    grids.chain(trees).chain([tiles]).collect()
+}
+
+/// A variant of a method with per-pixel tests, with its turn on a software device.
+fn variant_candidate(
+    name: String,
+    method: Box<dyn Method>,
+    [tolerance, color_tolerance]: [Tolerance; 2],
+    turn: (usize, usize),
+) -> DeviceCandidate {
+    let takes_turns = gpu().is_ok_and(|gpu| gpu.is_software());
+    let turn = if takes_turns { turn } else { (0, 1) };
+    DeviceCandidate {
+        name,
+        method,
+        tolerance,
+        color_tolerance,
+        least_scenes: 140 / turn.1,
+        turn,
     }
 }
 
