@@ -28,27 +28,44 @@ pub(super) fn length_m(runs: &Runs) -> f64 {
     lengths.sum()
 }
 
-/// The length that the file states for a path.
-pub(super) fn stated_length_m(document: &Document, path: u32) -> Option<f64> {
-    let attributes = &document.layout().paths.attributes;
-    attributes.value(path as usize, LENGTH)?.number()
+/// The vehicle type of a stated length, if it does not hold for all, and the row of its path.
+type LengthOf = (Option<Arc<str>>, u32);
+
+/// Stated lengths, in meters.
+pub(super) type StatedLengths = BTreeMap<LengthOf, f64>;
+
+/// The lengths that the file states for a path: for all vehicle types, and for each with its own.
+pub(super) fn stated_lengths_m(document: &Document, path: u32) -> Vec<(Option<Arc<str>>, f64)> {
+    let (paths, row) = (&document.layout().paths, path as usize);
+    let shared = paths.attributes.value(row, LENGTH);
+    let shared = shared.and_then(|value| Some((None, value.number()?)));
+    let entries = paths.vehicle_types();
+    let own = entries.entries(row).filter_map(|entry| {
+        let length_m = entries.attributes.value(entry, LENGTH)?.number()?;
+        Some((Some(entries.type_of(entry).into()), length_m))
+    });
+    shared.into_iter().chain(own).collect()
 }
 
-/// The change that sets the stated lengths of paths; `None` without any.
-pub(super) fn set_lengths_m(lengths_m: &BTreeMap<u32, f64>) -> Option<Change> {
-    if lengths_m.is_empty() {
-        return None;
-    }
-    let values: Values = lengths_m.values().map(|v| Some(Value::Float(*v))).collect();
-    let edit = TableEdit::SetValues {
-        of: Table::Paths,
-        vehicle_type: None,
-        column: LENGTH.into(),
-        quantity: None,
-        rows: lengths_m.keys().copied().collect(),
-        values: Arc::new(values),
+/// The changes that set the stated lengths of paths.
+pub(super) fn set_lengths_m(lengths_m: &StatedLengths) -> Vec<Change> {
+    let lengths: Vec<_> = lengths_m.iter().collect();
+    let groups = lengths.chunk_by(|a, b| a.0.0 == b.0.0);
+    let set = |group: &[(&LengthOf, &f64)]| {
+        let values = group
+            .iter()
+            .map(|(_, length_m)| Some(Value::Float(**length_m)));
+        let edit = TableEdit::SetValues {
+            of: Table::Paths,
+            vehicle_type: group[0].0.0.clone(),
+            column: LENGTH.into(),
+            quantity: None,
+            rows: group.iter().map(|((_, path), _)| *path).collect(),
+            values: Arc::new(values.collect::<Values>()),
+        };
+        edit.into()
     };
-    Some(edit.into())
+    groups.map(set).collect()
 }
 
 impl Document {
@@ -57,18 +74,27 @@ impl Document {
     pub(super) fn scaled_lengths_m<'r>(
         &self,
         curves: impl Iterator<Item = (u32, &'r Runs)>,
-    ) -> BTreeMap<u32, f64> {
-        let scaled = curves.filter_map(|(path, runs)| {
-            let stated_m = stated_length_m(self, path)?;
+    ) -> StatedLengths {
+        let mut scaled = StatedLengths::new();
+        for (path, runs) in curves {
+            let stated = stated_lengths_m(self, path);
+            if stated.is_empty() {
+                continue;
+            }
             let old_m = length_m(&runs_of(self.layout().paths.get(path as usize)));
             let new_m = length_m(runs);
-            let scaled_m = stated_m * (new_m / old_m);
-            let is_other = (new_m - old_m).abs() > 2.0 * LENGTH_TOLERANCE_M;
-            let steps_per_m = 1.0 / LENGTH_TOLERANCE_M;
-            let rounded_m = (scaled_m * steps_per_m).round() / steps_per_m;
-            (is_other && rounded_m.is_finite()).then_some((path, rounded_m))
-        });
-        scaled.collect()
+            if (new_m - old_m).abs() <= 2.0 * LENGTH_TOLERANCE_M {
+                continue;
+            }
+            for (vehicle_type, stated_m) in stated {
+                let steps_per_m = 1.0 / LENGTH_TOLERANCE_M;
+                let rounded_m = (stated_m * (new_m / old_m) * steps_per_m).round() / steps_per_m;
+                if rounded_m.is_finite() {
+                    scaled.insert((vehicle_type, path), rounded_m);
+                }
+            }
+        }
+        scaled
     }
 
     /// The changes that replace the curves of paths, with the lengths that are stated for them.
@@ -78,15 +104,15 @@ impl Document {
         reshaped.chain(set_lengths_m(&lengths_m)).collect()
     }
 
-    /// The change of the lengths that are stated for transformed paths, if there is one.
-    pub(super) fn transformed_lengths(&self, paths: &PathSet, by: Affine) -> Option<Change> {
+    /// The changes of the lengths that are stated for transformed paths.
+    pub(super) fn transformed_lengths(&self, paths: &PathSet, by: Affine) -> Vec<Change> {
         let unit = |vector: f64| (vector - 1.0).abs() <= SAME_SCALE;
         if unit(by.x.norm()) && unit(by.y.norm()) && by.x.dot(by.y).abs() <= SAME_SCALE {
-            return None;
+            return Vec::new();
         }
         let stated = paths
             .iter()
-            .filter(|&path| stated_length_m(self, path).is_some());
+            .filter(|&path| !stated_lengths_m(self, path).is_empty());
         let paths = &self.layout().paths;
         let transformed = stated.map(|path| (path, mapped_runs(paths.get(path as usize), by)));
         let transformed: Vec<(u32, Runs)> = transformed.collect();

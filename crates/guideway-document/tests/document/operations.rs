@@ -279,3 +279,31 @@ fn refines_and_restores_thousands_of_paths() {
     }
     assert_eq!(document.layout().paths.geometry().point_count(), 3_000 * 4);
 }
+
+/// A file may state a length per vehicle type; each follows the curve by its own ratio.
+#[test]
+fn stated_lengths_of_vehicle_types_follow_the_curves() {
+    let mut layout = two_joined().to_layout();
+    layout.paths.vehicle_types_mut().set(0, &["tug", "fork"]);
+    let lengths = &mut layout.paths.vehicle_types_mut().attributes;
+    lengths.set_quantity(0, "length", 20.0, Quantity::Length);
+    let mut document = document_of(layout);
+    let length = |document: &Document, row: usize, name: &str| {
+        let value = document.layout().paths.value_for(row, name, "length");
+        value.and_then(|value| value.number())
+    };
+    document.move_node(1, p(12.0, 0.0)).unwrap();
+    assert_eq!(length(&document, 0, "tug"), Some(24.0));
+    assert_eq!(length(&document, 0, "fork"), None);
+    let path = [0].into_iter().collect();
+    document.split_at(&path, p(6.0, 0.0), 0.1).unwrap();
+    let halves = [0, 2].map(|row| length(&document, row, "tug"));
+    assert!(
+        halves
+            .iter()
+            .all(|half| half.is_some_and(|m| (m - 12.0).abs() < 1e-5)),
+        "{halves:?}"
+    );
+    while document.undo().is_some() {}
+    assert_eq!(length(&document, 0, "tug"), Some(20.0));
+}

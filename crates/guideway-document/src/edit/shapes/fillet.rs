@@ -23,7 +23,7 @@ use super::error::ShapeError;
 use super::plan::{Plan, properties_of};
 use crate::change::Change;
 use crate::document::Document;
-use crate::edit::lengths::{length_m, stated_length_m};
+use crate::edit::lengths::{length_m, stated_lengths_m};
 use crate::elements::Elements;
 
 /// Largest distance between an arc and its cubics, in meters.
@@ -124,8 +124,8 @@ impl Document {
                 direction: way.direction,
                 ..properties_of(self, way.from.row)
             });
-            if stated_length_m(self, way.from.row).is_some() {
-                plan.set_length_m(row, length_m);
+            for (vehicle_type, _) in stated_lengths_m(self, way.from.row) {
+                plan.set_length_m(row, vehicle_type, length_m);
             }
             let own = Member::Path(way.from.row);
             plan.add_member(own, Member::Path(row));

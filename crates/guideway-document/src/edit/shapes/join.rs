@@ -11,7 +11,7 @@ use super::plan::Plan;
 use crate::PathSet;
 use crate::document::Document;
 use crate::edit::curves::runs_of;
-use crate::edit::lengths::{LENGTH, stated_length_m};
+use crate::edit::lengths::{LENGTH, stated_lengths_m};
 use crate::elements::Elements;
 
 /// Largest gap between two paths at one node, in meters. Files round positions to a millimeter, and
@@ -106,9 +106,12 @@ impl Document {
             path: self.layout().paths.id(first as usize).to_owned(),
             reason,
         })?;
-        let lengths_m = [first, second].map(|path| stated_length_m(self, path));
-        if let [Some(a), Some(b)] = lengths_m {
-            plan.set_length_m(first, a + b);
+        let [of_first, of_second] = [first, second].map(|path| stated_lengths_m(self, path));
+        for (vehicle_type, a) in of_first {
+            let other = of_second.iter().find(|(other, _)| *other == vehicle_type);
+            if let Some((_, b)) = other {
+                plan.set_length_m(first, vehicle_type, a + b);
+            }
         }
         plan.set_curve(first, joined);
         plan.set_ends(first, ends);
@@ -212,7 +215,7 @@ impl Document {
             let of = |row: usize| entries.entry_for(row, vehicle_type);
             if let (Some(a), Some(b)) = (of(first), of(second)) {
                 for name in different_columns(&entries.attributes, a, b) {
-                    add(true, &format!("{name} ({vehicle_type})"));
+                    add(name != LENGTH, &format!("{name} ({vehicle_type})"));
                 }
             }
         }

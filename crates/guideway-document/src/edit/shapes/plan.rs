@@ -1,6 +1,7 @@
 //! [`Plan`]: the parts of a step, collected in any order, as changes in the right one.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use guideway_layout::{Member, PathRef};
 use guideway_scene::{Edit, Insertion, NewNode, PathState, Table, TableEdit};
@@ -8,7 +9,7 @@ use guideway_spline::{Point, Runs};
 
 use crate::change::Change;
 use crate::document::Document;
-use crate::edit::lengths::set_lengths_m;
+use crate::edit::lengths::{StatedLengths, set_lengths_m};
 use crate::edit::names::Names;
 use crate::edit::perform::{reshape, set_states};
 
@@ -22,7 +23,7 @@ pub(super) struct Plan<'d> {
     curves: BTreeMap<u32, Runs>,
     ends: BTreeMap<u32, [Option<u32>; 2]>,
     ids: BTreeMap<u32, String>,
-    lengths_m: BTreeMap<u32, f64>,
+    lengths_m: StatedLengths,
     moved: BTreeMap<u32, Point<f64>>,
     station_nodes: BTreeMap<u32, Box<[u32]>>,
     removed_paths: BTreeSet<u32>,
@@ -42,7 +43,7 @@ impl<'d> Plan<'d> {
             curves: BTreeMap::new(),
             ends: BTreeMap::new(),
             ids: BTreeMap::new(),
-            lengths_m: BTreeMap::new(),
+            lengths_m: StatedLengths::new(),
             moved: BTreeMap::new(),
             station_nodes: BTreeMap::new(),
             removed_paths: BTreeSet::new(),
@@ -120,9 +121,14 @@ impl<'d> Plan<'d> {
         self.ids.insert(path, id);
     }
 
-    /// Sets the stated length of a path, old or new.
-    pub(super) fn set_length_m(&mut self, path: u32, length_m: f64) {
-        self.lengths_m.insert(path, length_m);
+    /// Sets the stated length of a path, old or new, for all vehicle types or for one.
+    pub(super) fn set_length_m(
+        &mut self,
+        path: u32,
+        vehicle_type: Option<Arc<str>>,
+        length_m: f64,
+    ) {
+        self.lengths_m.insert((vehicle_type, path), length_m);
     }
 
     pub(super) fn set_station_nodes(&mut self, station: u32, nodes: Box<[u32]>) {
@@ -165,8 +171,8 @@ impl<'d> Plan<'d> {
     /// The changes, each after those on which it depends.
     pub(super) fn changes(mut self) -> Vec<Change> {
         let curves = self.curves.iter().map(|(&path, runs)| (path, runs));
-        for (path, length_m) in self.document.scaled_lengths_m(curves) {
-            self.lengths_m.entry(path).or_insert(length_m);
+        for (of, length_m) in self.document.scaled_lengths_m(curves) {
+            self.lengths_m.entry(of).or_insert(length_m);
         }
         let members = self.members();
         let when = |has_rows: bool, edit: TableEdit| has_rows.then(|| Change::from(edit));
@@ -174,7 +180,7 @@ impl<'d> Plan<'d> {
         let ids = self.ids.into_iter().map(|(row, id)| (row, id.into()));
         let gone = self.removed_nodes.into_iter().map(|node| (node, false));
         let (paths, nodes) = (Table::Paths, Table::Nodes);
-        let changes = [
+        let first = [
             when(
                 !self.nodes.is_empty(),
                 TableEdit::InsertNodes(self.nodes.into()),
@@ -193,7 +199,9 @@ impl<'d> Plan<'d> {
                     ids: ids.collect(),
                 },
             ),
-            set_lengths_m(&self.lengths_m),
+        ];
+        let lengths = set_lengths_m(&self.lengths_m);
+        let last = [
             when(
                 !self.station_nodes.is_empty(),
                 TableEdit::SetStationNodes(self.station_nodes.into_iter().collect()),
@@ -209,7 +217,8 @@ impl<'d> Plan<'d> {
             (!self.removed_paths.is_empty())
                 .then(|| set_states(self.removed_paths.into_iter(), PathState::Removed)),
         ];
-        changes.into_iter().flatten().collect()
+        let (first, last) = (first.into_iter().flatten(), last.into_iter().flatten());
+        first.chain(lengths).chain(last).collect()
     }
 
     /// Members of the blocks that change.

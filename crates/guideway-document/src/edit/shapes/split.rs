@@ -15,7 +15,7 @@ use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
 use crate::edit::curves::{runs_of, with_moved_ends};
-use crate::edit::lengths::{length_m, stated_length_m};
+use crate::edit::lengths::{length_m, stated_lengths_m};
 use crate::elements::Elements;
 
 /// Distance within which places are one node, in meters.
@@ -216,7 +216,7 @@ impl<'d> Cuts<'d> {
         }
         let whole = plan.ends_of(path);
         let names = plan.piece_names(path, pieces.len());
-        let (whole_m, stated_m) = (length_m(runs), stated_length_m(plan.document, path));
+        let (whole_m, stated) = (length_m(runs), stated_lengths_m(plan.document, path));
         let mut rows = Vec::with_capacity(pieces.len());
         for ((piece, (start, end)), name) in pieces.into_iter().zip(names) {
             let share = length_m(&piece) / whole_m;
@@ -235,8 +235,8 @@ impl<'d> Cuts<'d> {
             } else {
                 plan.add_path(path, name, piece, ends)
             };
-            if let Some(stated_m) = stated_m {
-                plan.set_length_m(row, stated_m * share);
+            for (vehicle_type, stated_m) in &stated {
+                plan.set_length_m(row, vehicle_type.clone(), stated_m * share);
             }
             rows.push(row);
         }
