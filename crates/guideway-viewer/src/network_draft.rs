@@ -131,22 +131,24 @@ impl NetworkDraft {
         self.latest = LatestTask::default();
     }
 
-    /// The rule of a layer; the default one if there is none.
+    /// The rule that the build applies to a layer, under the name of the layer; the default one if
+    /// none fits.
     pub(crate) fn rule(&self, layer: &str) -> LayerRule {
         let rules = &mut self.options.layers.iter();
-        let found = rules.find(|rule| rule.name == layer);
-        found.cloned().unwrap_or_else(|| LayerRule {
+        let found = rules.find(|rule| rule.fits(layer)).cloned();
+        LayerRule {
             name: layer.to_owned(),
-            ..LayerRule::default()
-        })
+            ..found.unwrap_or_default()
+        }
     }
 
-    /// Replaces the rule of a layer; a rule that says nothing is dropped.
+    /// Replaces the rule of a layer, before those of patterns that fit it too; a rule that changes
+    /// nothing is dropped.
     pub(crate) fn set_rule(&mut self, rule: LayerRule) {
         let rules = &mut self.options.layers;
         rules.retain(|other| other.name != rule.name);
         if rule != self.rule(&rule.name) {
-            self.options.layers.push(rule);
+            self.options.layers.insert(0, rule);
         }
     }
 }
@@ -163,6 +165,32 @@ pub(crate) fn toggle_source(sources: &mut Vec<NoteSource>, source: &NoteSource) 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The build takes the first rule that fits a layer, whatever its case, and so must the panel.
+    #[test]
+    fn rule_of_a_pattern_is_that_of_its_layers() {
+        let mut draft = NetworkDraft::default();
+        let walls = LayerRule {
+            leave: true,
+            ..draft.rule("wall*")
+        };
+        draft.set_rule(walls);
+        let shown = draft.rule("WALLS");
+        assert!(shown.leave && shown.name == "WALLS");
+        assert!(!draft.rule("LANES").leave);
+        let kept = LayerRule {
+            leave: false,
+            ..shown
+        };
+        draft.set_rule(kept);
+        assert!(!draft.rule("WALLS").leave && draft.rule("WALL-2").leave);
+        let mut rules = draft.options.layers.iter();
+        let first = rules.find(|rule| rule.fits("WALLS"));
+        assert!(
+            first.is_some_and(|rule| !rule.leave),
+            "the build does so too"
+        );
+    }
 
     #[test]
     fn rule_that_says_nothing_is_dropped() {
