@@ -1,6 +1,6 @@
 //! Draws marks: arrows, node and station symbols as polygons, labels as text.
 
-use guideway_scene::{DrawList, TextLine};
+use guideway_scene::{DrawList, Rgba, TextLine};
 use guideway_spline::{Bounds, Point};
 
 use super::marks::{Arrow, Marks};
@@ -22,6 +22,13 @@ const STATION_RADIUS_POINTS: f64 = 6.0;
 /// Opacity of the paper behind labels.
 const LABEL_PAPER_OPACITY: f64 = 0.75;
 
+/// Length of the dashes of a link and of the spaces between them, in points.
+const DASH_POINTS: f64 = 4.0;
+/// Half the width of a link, in points.
+const LINK_RADIUS_POINTS: f64 = 0.6;
+/// Most dashes of a link; a longer one, which leads far out of the view, is a line.
+const MAX_DASHES: f64 = 500.0;
+
 const DIAMOND: [(f64, f64); 4] = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
 const SQUARE: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
 
@@ -38,6 +45,10 @@ impl Marks {
         let point_px = style.px_per_point;
         for arrow in &self.arrows {
             draw_arrow(&mut list, arrow, style, &map);
+        }
+        let color = style.mark_color(MarkKind::Station);
+        for link in &self.links {
+            draw_dashes(&mut list, link.map(&map), color, point_px);
         }
         let symbols = [
             (MarkKind::Node, &self.nodes, DIAMOND, NODE_RADIUS_POINTS),
@@ -66,6 +77,21 @@ impl Marks {
             });
         }
         list
+    }
+}
+
+/// Draws a dashed line.
+fn draw_dashes(list: &mut DrawList, [a, b]: [Point<f64>; 2], color: Rgba, point_px: f64) {
+    let radius_px = LINK_RADIUS_POINTS * point_px;
+    let count = (a.distance(b) / (2.0 * DASH_POINTS * point_px)).ceil();
+    if !(1.0..=MAX_DASHES).contains(&count) {
+        list.stroke_segment(color, [a, b], radius_px);
+        return;
+    }
+    let step = (b - a) * (1.0 / count);
+    for dash in 0..count as u32 {
+        let start = a + step * f64::from(dash);
+        list.stroke_segment(color, [start, start + step * 0.5], radius_px);
     }
 }
 

@@ -66,6 +66,8 @@ pub struct Marks {
     pub nodes: Vec<Point<f64>>,
     /// Positions of stations, in pixels.
     pub stations: Vec<Point<f64>>,
+    /// From stations to the nodes that serve them, in pixels, where these are apart.
+    pub links: Vec<[Point<f64>; 2]>,
     /// Labels, none over another.
     pub labels: Vec<Label>,
     /// True if marks are missing because the view has too many paths, nodes or stations.

@@ -51,6 +51,7 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
     if options.symbols {
         marks.nodes = visible.nodes.iter().map(|(_, at_px)| *at_px).collect();
         marks.stations = visible.stations.iter().map(|(_, at_px)| *at_px).collect();
+        marks.links = visible.links(min_distance_px);
     }
     if let Some(size) = options.labels {
         let arrow_box = |arrow: &Arrow| arrow_box(arrow, options.px_per_point);
@@ -143,6 +144,23 @@ impl<'d> Visible<'d> {
         if !of.stations {
             self.stations.clear();
         }
+    }
+
+    /// The lines from stations to nodes that serve them, where symbols do not touch.
+    fn links(&self, min_distance_px: f64) -> Vec<[Point<f64>; 2]> {
+        let (scene, layout) = (self.document.scene(), self.document.layout());
+        let of_station = |&(station, at_px): &(u32, Point<f64>)| {
+            let nodes = layout.stations.nodes(station).iter();
+            let nodes = nodes.filter(|&&node| scene.exists(Table::Nodes, node));
+            let shown = nodes.filter(|&&node| self.document.shows_level(layout.nodes.level(node)));
+            let ends = shown.map(move |&node| {
+                let node_m = self.document.node_position_m(node);
+                [at_px, self.view.pixel_from_world(node_m)]
+            });
+            ends.filter(move |[a, b]| a.distance(*b) > min_distance_px)
+        };
+        let links = self.stations.iter().flat_map(of_station);
+        links.take(2 * MAX_MARKED).collect()
     }
 
     /// Arrows along the paths, thinned out. The first path of a reverse pair has the arrows of

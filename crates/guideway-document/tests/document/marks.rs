@@ -10,7 +10,7 @@ use guideway_layout::{Layout, Level, NewPath, Value};
 use guideway_scene::{LineRule, SceneOptions, View};
 use guideway_spline::{Point, Runs};
 
-use crate::site::{document_of, lanes, p, view};
+use crate::site::{document_of, lanes, p, square, view};
 
 const ALL: MarkOptions = MarkOptions {
     px_per_point: 1.0,
@@ -267,4 +267,27 @@ fn walls_and_doors_have_no_arrows() {
             .set(row, "element", Value::Text(element));
     }
     assert_eq!(marks_of(layout, &view).arrows.len(), all / 3);
+}
+
+/// A location of openTCS stands beside its points; a dashed line says which they are.
+#[test]
+fn stations_apart_from_their_nodes_are_linked_to_them() {
+    let near = view(p(5.0, 5.0), 40.0);
+    let document = document_of(square());
+    let found = marks(&document, &near, &ALL);
+    let in_meters = |link: &[Point<f64>; 2]| link.map(|end| near.world_from_pixel(end));
+    let links: Vec<[Point<f64>; 2]> = found.links.iter().map(in_meters).collect();
+    let expected = [
+        [p(0.0, -1.0), p(0.0, 0.0)],
+        [p(11.0, 5.0), p(10.0, 0.0)],
+        [p(11.0, 5.0), p(10.0, 10.0)],
+    ];
+    assert_eq!(links.len(), 3, "{links:?}");
+    for (link, expected) in links.iter().zip(expected) {
+        assert!(link.iter().zip(expected).all(|(a, b)| a.distance(b) < 1e-9));
+    }
+    // Far off, symbols touch and need no line.
+    let far = view(p(5.0, 5.0), 1.0);
+    let found = marks(&document, &far, &ALL);
+    assert_eq!(found.links.len(), 0, "{:?}", found.links);
 }
