@@ -14,6 +14,7 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use guideway_document::text_format;
+use guideway_layout::Direction;
 use serde::{Deserialize, Serialize};
 
 /// A language of the window.
@@ -92,6 +93,14 @@ pub(crate) fn t(english: &str) -> &str {
     match language() {
         Language::English => english,
         Language::German => GERMAN.get(english).copied().unwrap_or(english),
+    }
+}
+
+/// The name of a direction.
+pub(crate) fn direction_name(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Forward => t("one-way"),
+        Direction::Both => t("two-way"),
     }
 }
 

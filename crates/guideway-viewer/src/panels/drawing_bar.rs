@@ -2,14 +2,13 @@
 
 use eframe::egui::{ComboBox, DragValue, Id, Ui};
 use guideway_document::Document;
-use guideway_layout::Direction;
 
 use super::new_edges::NewEdgesPanel;
 use crate::action::Action;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::files::OpenFiles;
-use crate::language::{say, t};
+use crate::language::{direction_name, say, t};
 use crate::tools::Tools;
 
 /// Steps of the grid to choose from, in meters.
@@ -49,10 +48,7 @@ impl DrawingBar<'_> {
                 true => t("all vehicle types").to_owned(),
                 false => types.join(", "),
             };
-            let direction = match template.direction {
-                Direction::Forward => t("one-way"),
-                Direction::Both => t("two-way"),
-            };
+            let direction = direction_name(template.direction);
             let text = say!("New paths: {direction}, {types}", direction, types);
             let button = ui.selectable_label(self.new_edges.is_open, text);
             let button =

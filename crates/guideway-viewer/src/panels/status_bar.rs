@@ -3,14 +3,13 @@
 
 use eframe::egui::{Label, Ui};
 use guideway_document::{Document, Hit, text_format};
-use guideway_layout::Direction;
 
 use super::selection_panel::summary;
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::OpenFiles;
-use crate::language::{grouped, say, t};
+use crate::language::{direction_name, grouped, say, t};
 use crate::tools::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
 
 /// Size of a point of a screen at 96 points per inch, in meters.
@@ -116,10 +115,7 @@ fn scale_text(points_per_m: f64) -> String {
 fn hovered(document: &Document, hit: &Hit) -> String {
     let paths = &document.layout().paths;
     let path = paths.get(hit.path as usize);
-    let way = match path.direction() {
-        Direction::Forward => t("one-way"),
-        Direction::Both => t("two-way"),
-    };
+    let way = direction_name(path.direction());
     let id = |path: u32| paths.id(path as usize);
     let length = text_format::length(path.length_m());
     let text = say!(

@@ -11,7 +11,7 @@ use super::field::Common;
 use super::shown::Shown;
 use crate::action::Action;
 use crate::editing::EditTask;
-use crate::language::t;
+use crate::language::{direction_name, t};
 
 /// A choice of words; an empty one removes the property.
 pub(super) fn choice(
@@ -41,16 +41,12 @@ pub(super) fn choice(
 }
 
 pub(super) fn direction(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
-    let name = |direction| match direction {
-        Direction::Forward => t("one-way"),
-        Direction::Both => t("two-way"),
-    };
     let present = shown.facts.direction;
     let combo = ComboBox::from_id_salt("direction");
-    let text = present.map_or(t("several values"), name);
+    let text = present.map_or(t("several values"), direction_name);
     combo.selected_text(text).show_ui(ui, |ui| {
         for direction in [Direction::Forward, Direction::Both] {
-            let label = ui.selectable_label(present == Some(direction), name(direction));
+            let label = ui.selectable_label(present == Some(direction), direction_name(direction));
             if label.clicked() && present != Some(direction) {
                 let rows = Arc::clone(&shown.rows);
                 actions.push(Action::Edit(EditTask::edit(
