@@ -10,6 +10,7 @@ use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, S
 use serde::{Deserialize, Serialize};
 
 use crate::language::Language;
+use crate::speed_unit::SpeedUnit;
 
 /// Greatest width of paths without a width of their own, in meters.
 pub(crate) const MAX_WIDTH_M: f64 = 2.0;
@@ -60,6 +61,8 @@ pub(crate) struct DisplaySettings {
     pub(crate) uses_desktop_dialogs: bool,
     /// Language of the window; `None` takes that of the desktop.
     pub(crate) language: Option<Language>,
+    /// Unit of the speeds that are shown and typed.
+    pub(crate) speed_unit: SpeedUnit,
 }
 
 impl Default for DisplaySettings {
@@ -79,6 +82,7 @@ impl Default for DisplaySettings {
             grid_step_m: None,
             uses_desktop_dialogs: true,
             language: None,
+            speed_unit: SpeedUnit::default(),
         }
     }
 }

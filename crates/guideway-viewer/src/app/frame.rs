@@ -15,6 +15,7 @@ use crate::language::{say, set_language};
 use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
+use crate::speed_unit::set_speed_unit;
 
 /// Least width of the side panel, in points.
 const MIN_SIDE_PANEL_WIDTH: f32 = 180.0;
@@ -31,6 +32,7 @@ impl App {
     pub(crate) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         set_language(self.settings.language.unwrap_or(self.language));
+        set_speed_unit(self.settings.speed_unit);
         self.poll(&ctx);
         self.take_input(&ctx);
         self.take_hover(&ctx);

@@ -8,7 +8,7 @@ use guideway_document::decorations::{
     Corner, DecorationStyle, MAX_MARKED, handles, legend, outline, scale_bar,
 };
 use guideway_document::{Document, PathSet};
-use guideway_scene::View;
+use guideway_scene::{Legend, View};
 use guideway_spline::Point;
 
 use super::draft::Draft;
@@ -56,6 +56,17 @@ pub(crate) struct CanvasPainter<'a> {
     pub(crate) network: Option<&'a Drafted>,
 }
 
+/// The meaning of the colors of the active file as it is drawn: of the column, or of the density.
+pub(crate) fn shown_colors<'a>(
+    files: &'a OpenFiles,
+    settings: &DisplaySettings,
+) -> Option<&'a Legend> {
+    match settings.is_density {
+        true => files.active()?.picture.shown()?.report.density.as_ref(),
+        false => files.document()?.scene().legend(),
+    }
+}
+
 impl CanvasPainter<'_> {
     /// Paints all parts.
     pub(crate) fn paint(&self, painter: &Painter) {
@@ -83,8 +94,7 @@ impl CanvasPainter<'_> {
         self.paint_findings(painter);
         self.paint_gesture(painter);
         list(scale_bar(&self.view, &style));
-        let document = self.files.document();
-        let colors = document.and_then(|document| document.scene().legend());
+        let colors = shown_colors(self.files, self.settings);
         let corner = Corner::UpperLeft;
         let colors =
             colors.and_then(|colors| legend(colors, self.view.size(), 0.0, corner, &style));

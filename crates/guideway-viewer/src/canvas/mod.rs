@@ -26,6 +26,8 @@ mod shape_text;
 
 pub(crate) use canvas_input::Canvas;
 pub(crate) use canvas_painter::CanvasPainter;
+#[cfg(test)]
+pub(crate) use canvas_painter::shown_colors;
 pub(crate) use paint_findings::severity_color;
 pub(crate) use paint_network::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 pub(crate) use paint_tools::change_color;

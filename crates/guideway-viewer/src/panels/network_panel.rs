@@ -4,13 +4,13 @@ use eframe::egui::{Button, ComboBox, DragValue, Grid, Label, RichText, ScrollAre
 use guideway_document::text_format::single_line;
 use guideway_network::{DirectionRule, DrawingSources, NoteSource};
 
+use super::new_edges::speed_field;
 use crate::action::Action;
 use crate::canvas::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 use crate::files::OpenFiles;
 use crate::language::{grouped, say, t};
 use crate::network_draft::{NetworkDraft, toggle_source};
 
-const SPEEDS_M_S: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 const LENGTHS_M: std::ops::RangeInclusive<f64> = 0.0..=100.0;
 /// Smoothing distance when the user switches it on, in meters.
 const SMOOTH_M: f64 = 0.02;
@@ -99,8 +99,7 @@ fn show_layer(ui: &mut Ui, draft: &mut NetworkDraft, name: &str, paths: u64) {
     let mut has_speed = rule.max_speed_m_s.is_some();
     ui.checkbox(&mut has_speed, t("speed"));
     let mut speed_m_s = rule.max_speed_m_s.unwrap_or(1.0);
-    let field = DragValue::new(&mut speed_m_s).range(SPEEDS_M_S).speed(0.05);
-    ui.add_enabled(has_speed, field.suffix(" m/s"));
+    ui.add_enabled_ui(has_speed, |ui| speed_field(ui, &mut speed_m_s));
     rule.max_speed_m_s = has_speed.then_some(speed_m_s);
     let directions = [
         (None, t("as all")),

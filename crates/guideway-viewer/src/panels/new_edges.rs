@@ -1,7 +1,11 @@
 //! The New paths window: direction, greatest speed and vehicle types of what is drawn.
 
 use crate::language::{say, t};
-use eframe::egui::{Button, Context, DragValue, Pos2, TextEdit, Window};
+use crate::speed_unit::speed_unit;
+
+/// Least and greatest speed of a field, in m/s.
+const SPEEDS_M_S: [f64; 2] = [0.01, 100.0];
+use eframe::egui::{Button, Context, DragValue, Pos2, TextEdit, Ui, Window};
 use guideway_document::{Document, EdgeTemplate};
 use guideway_layout::Direction;
 
@@ -37,12 +41,12 @@ impl NewEdgesPanel {
                 ui.checkbox(&mut has_speed, t("Greatest speed"));
                 let mut speed = template.max_speed.unwrap_or(1.0);
                 if has_speed {
-                    let value = DragValue::new(&mut speed).speed(0.05).suffix(" m/s");
-                    ui.add(value.range(0.01..=100.0));
+                    speed_field(ui, &mut speed);
                 }
                 template.max_speed = has_speed.then_some(speed);
             });
-            let label = ui.label(t("Vehicle types, with their speeds in m/s"));
+            let unit = speed_unit().name();
+            let label = ui.label(say!("Vehicle types, with their speeds in {unit}", unit));
             let field = TextEdit::singleline(&mut self.types)
                 .hint_text("tugger: 1.5, stacker: 1.2")
                 .desired_width(260.0);
@@ -71,7 +75,19 @@ impl NewEdgesPanel {
     }
 }
 
-/// Vehicle types with their speeds: `tugger: 1.5, stacker`.
+/// A field of a speed in m/s, in the unit of the settings.
+pub(super) fn speed_field(ui: &mut Ui, speed_m_s: &mut f64) {
+    let unit = speed_unit();
+    let mut shown = unit.of_m_s(*speed_m_s);
+    let [least, most] = SPEEDS_M_S.map(|speed| unit.of_m_s(speed));
+    let suffix = format!(" {}", unit.name());
+    let field = DragValue::new(&mut shown).speed(5.0 * least);
+    if ui.add(field.range(least..=most).suffix(suffix)).changed() {
+        *speed_m_s = unit.to_m_s(shown);
+    }
+}
+
+/// Vehicle types with their speeds, in the unit of the settings: `tugger: 1.5, stacker`.
 ///
 /// # Errors
 /// The mistake in a speed or a name.
@@ -90,7 +106,7 @@ fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
                     let speed = speed.trim();
                     say!("`{speed}` is no speed above 0; write `tugger: 1.5`", speed)
                 })?;
-                (name.trim(), Some(value))
+                (name.trim(), Some(speed_unit().to_m_s(value)))
             }
             None => (part, None),
         };
@@ -107,7 +123,7 @@ fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
 
 fn types_text(types: &[(String, Option<f64>)]) -> String {
     let text = |(name, speed): &(String, Option<f64>)| match speed {
-        Some(speed) => format!("{name}: {speed}"),
+        Some(speed) => format!("{name}: {}", speed_unit().of_m_s(*speed)),
         None => name.clone(),
     };
     types.iter().map(text).collect::<Vec<_>>().join(", ")

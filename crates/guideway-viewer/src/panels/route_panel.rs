@@ -7,6 +7,7 @@ use crate::action::Action;
 use crate::files::OpenFiles;
 use crate::language::{counted, say, t};
 use crate::route::{FoundRoute, RouteSearch, Slot};
+use crate::speed_unit::speed_unit;
 
 const ROW_HEIGHT: f32 = 18.0;
 
@@ -120,13 +121,14 @@ fn show_steps(ui: &mut Ui, route: &FoundRoute, actions: &mut Vec<Action>) {
                 false => String::new(),
             };
             let text = say!(
-                "{number}. {turn}{path} to {to}: {length} at {speed} m/s, {time}; after {all}",
+                "{number}. {turn}{path} to {to}: {length} at {speed} {unit}, {time}; after {all}",
                 number = number + 1,
                 turn,
                 path = step.path,
                 to = step.to,
                 length = text_format::length(row.length_m),
-                speed = format!("{:.2}", row.speed_m_s),
+                speed = format!("{:.2}", speed_unit().of_m_s(row.speed_m_s)),
+                unit = speed_unit().name(),
                 time = time_text(row.drive_s),
                 all = time_text(row.end_s),
             );

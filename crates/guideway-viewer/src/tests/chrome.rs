@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
-use egui_kittest::kittest::{NodeT, Queryable};
+use eframe::egui::accesskit::Role;
+use eframe::egui::{CursorIcon, Event, Key, Modifiers, PointerButton, Pos2};
+use egui_kittest::kittest::{By, NodeT, Queryable};
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
+use crate::canvas::shown_colors;
 use crate::display_settings::ThemeChoice;
 use crate::language::Language;
+use crate::panels::SideTab;
+use crate::speed_unit::SpeedUnit;
 use crate::tools::Tool;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -148,6 +152,76 @@ fn settings_dialog_changes_theme_and_grid() {
     let licenses = env!("CARGO_PKG_LICENSE");
     let line = window.harness.query_by_label_contains(licenses);
     assert!(line.is_some());
+}
+
+#[test]
+fn legend_is_about_the_colors_that_are_drawn() {
+    let mut layout = lanes(3);
+    for row in 0..3 {
+        let speed = guideway_layout::Value::Float(0.5 + row as f64);
+        layout.paths.attributes.set(row, "speed", speed);
+    }
+    let mut window = TestWindow::showing(layout);
+    let title = |window: &mut TestWindow| {
+        let app = window.app();
+        let colors = shown_colors(&app.files, &app.settings);
+        colors.map(|colors| colors.title())
+    };
+    assert_eq!(title(&mut window), None);
+    window.app().settings.color_by = Some("speed".into());
+    window.app().recolor();
+    window.wait(|app| app.files.is_settled());
+    assert_eq!(title(&mut window).as_deref(), Some("speed"));
+    window.app().settings.is_density = true;
+    window.wait(|app| shown_colors(&app.files, &app.settings).is_some());
+    assert_eq!(title(&mut window).as_deref(), Some("paths per pixel"));
+}
+
+#[test]
+fn cursor_tells_what_a_press_would_do() {
+    let mut window = TestWindow::showing(lanes(2));
+    let cursor = |window: &mut TestWindow, y: f64| {
+        let at = window.at(5.0, y);
+        window.harness.event(Event::PointerMoved(at));
+        window.harness.run_steps(3);
+        let app = window.app();
+        app.tools.cursor(app.files.document())
+    };
+    assert_eq!(cursor(&mut window, 0.5), CursorIcon::Default);
+    assert_eq!(cursor(&mut window, 0.0), CursorIcon::PointingHand);
+    window.key(Modifiers::COMMAND, Key::A);
+    assert_eq!(cursor(&mut window, 0.0), CursorIcon::Move);
+    window.key(NONE, Key::D);
+    assert_eq!(cursor(&mut window, 0.0), CursorIcon::Crosshair);
+}
+
+#[test]
+fn speeds_are_shown_and_typed_in_the_unit_of_the_settings() {
+    let mut layout = lanes(2);
+    let attributes = &mut layout.paths.attributes;
+    for row in 0..2 {
+        attributes.set_quantity(row, "maxSpeed", 1.5, guideway_layout::Quantity::Speed);
+    }
+    let mut window = TestWindow::showing(layout);
+    window.app().side.open(SideTab::Properties);
+    window.key(Modifiers::COMMAND, Key::A);
+    window.harness.run_steps(3);
+    window.app().settings.speed_unit = SpeedUnit::KilometersPerHour;
+    window.harness.run_steps(3);
+    assert!(window.harness.query_by_label("maxSpeed (km/h)").is_some());
+    let field = By::new().role(Role::TextInput).value("5.4");
+    window.harness.get(field).focus();
+    window.harness.run_steps(2);
+    window.key(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text("3.6".into()));
+    window.harness.run_steps(2);
+    window.key(NONE, Key::Enter);
+    let attributes = &window.document().layout().paths.attributes;
+    for row in 0..2 {
+        let speed = attributes.value(row, "maxSpeed");
+        let speed_m_s = speed.and_then(|speed| speed.number());
+        assert!(speed_m_s.is_some_and(|m_s| (m_s - 1.0).abs() < 1e-12));
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use eframe::egui::{Checkbox, ComboBox, Context, DragValue, Grid, Ui, Window};
 use crate::action::Action;
 use crate::display_settings::{DisplaySettings, GRID_STEPS_M, ThemeChoice};
 use crate::language::{Language, t};
+use crate::speed_unit::SpeedUnit;
 
 /// Grid step when the user first sets one, in meters.
 const FIRST_STEP_M: f64 = 1.0;
@@ -24,6 +25,7 @@ impl SettingsDialog {
             Grid::new("settings").num_columns(2).show(ui, |ui| {
                 theme(ui, settings);
                 language(ui, settings);
+                speeds(ui, settings);
                 grid_step(ui, settings);
                 ui.label(t("File names"));
                 let asks = &mut settings.uses_desktop_dialogs;
@@ -58,6 +60,20 @@ fn language(ui: &mut Ui, settings: &mut DisplaySettings) {
             let each = Language::ALL.map(Some).into_iter();
             for choice in std::iter::once(None).chain(each) {
                 ui.selectable_value(&mut settings.language, choice, name(choice));
+            }
+        })
+        .response
+        .labelled_by(label.id);
+    ui.end_row();
+}
+
+fn speeds(ui: &mut Ui, settings: &mut DisplaySettings) {
+    let label = ui.label(t("Speeds in"));
+    ComboBox::from_id_salt("speeds")
+        .selected_text(settings.speed_unit.name())
+        .show_ui(ui, |ui| {
+            for unit in SpeedUnit::ALL {
+                ui.selectable_value(&mut settings.speed_unit, unit, unit.name());
             }
         })
         .response

@@ -6,6 +6,8 @@ use guideway_document::PathSet;
 use guideway_layout::{Attributes, Layout, Property, PropertyKind, TypeEntries, Value, Values};
 use guideway_scene::Table;
 
+use crate::speed_unit::shown_value;
+
 /// Most elements whose values are compared: a field of more shows those of the first.
 pub(super) const MAX_COMPARED: usize = 10_000;
 
@@ -62,19 +64,20 @@ pub(super) fn fields(layout: &Layout, of: Table, rows: &PathSet) -> Vec<Field> {
     let types = entries.map_or_else(Vec::new, |entries| types_of(entries, &rows));
     let field = |name: &str| {
         let column = shared.get(name).or_else(|| own?.get(name))?;
+        let unit = column.quantity.map(|quantity| quantity.unit());
         let of_type = |vehicle_type: &String| {
             let values = rows.iter().filter_map(|&row| {
                 let entry = entries?.entry_for(row, vehicle_type)?;
                 Some(own?.value(entry, name))
             });
-            let value = common(values);
+            let value = common(values, unit);
             (value != Common::None).then(|| (vehicle_type.clone(), value))
         };
         let field = Field {
             name: name.to_owned(),
-            unit: column.quantity.map(|quantity| quantity.unit()),
+            unit,
             kind: kind_of(name, &column.values),
-            shared: common(rows.iter().map(|&row| shared.value(row, name))),
+            shared: common(rows.iter().map(|&row| shared.value(row, name)), unit),
             per_type: types.iter().filter_map(of_type).collect(),
         };
         (field.shared != Common::None || !field.per_type.is_empty()).then_some(field)
@@ -89,15 +92,15 @@ pub(super) fn types_of(entries: &TypeEntries, rows: &[usize]) -> Vec<String> {
     types.into_iter().map(str::to_owned).collect()
 }
 
-/// The value that all have, if they have the same.
-pub(super) fn common<'a>(mut values: impl Iterator<Item = Option<Value<'a>>>) -> Common {
+/// The value that all have, if they have the same, as it is shown.
+fn common<'a>(mut values: impl Iterator<Item = Option<Value<'a>>>, unit: Option<&str>) -> Common {
     let Some(first) = values.next() else {
         return Common::None;
     };
     match (first, values.all(|value| value == first)) {
         (_, false) => Common::Several,
         (None, true) => Common::None,
-        (Some(value), true) => Common::Same(value.to_string()),
+        (Some(value), true) => Common::Same(shown_value(value, unit)),
     }
 }
 

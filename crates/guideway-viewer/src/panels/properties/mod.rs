@@ -26,6 +26,7 @@ use self::shown::Shown;
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
 use crate::language::{say, t};
+use crate::speed_unit::{SpeedUnit, shown_unit, speed_unit};
 
 /// Width of the names beside the fields, in points.
 const NAME_WIDTH: f32 = 130.0;
@@ -44,6 +45,8 @@ pub(crate) struct PropertiesPanel {
     added_types: Vec<(Table, String, String)>,
     /// Name of a vehicle type to add.
     new_type: String,
+    /// The unit of the speeds that are shown.
+    unit: SpeedUnit,
 }
 
 impl PropertiesPanel {
@@ -87,9 +90,11 @@ impl PropertiesPanel {
     fn update(&mut self, document: &Document, file: usize) {
         let revision = document.revision();
         let first = self.shown.first();
-        if first.is_some_and(|shown| (shown.file, shown.revision) == (file, revision)) {
+        let is_same = |shown: &Shown| (shown.file, shown.revision) == (file, revision);
+        if self.unit == speed_unit() && first.is_some_and(is_same) {
             return;
         }
+        self.unit = speed_unit();
         let (layout, selected) = (document.layout(), document.selected());
         let tables = [Table::Paths, Table::Nodes, Table::Stations].into_iter();
         let tables = tables.filter(|&of| !selected.rows(of).is_empty());
@@ -160,7 +165,7 @@ impl PropertiesPanel {
     /// One row for all vehicle types, and one for each with a value of its own.
     fn show_field(&mut self, ui: &mut Ui, shown: &Shown, field: &Field, actions: &mut Vec<Action>) {
         let name = match field.unit {
-            Some(unit) => format!("{} ({unit})", field.name),
+            Some(unit) => format!("{} ({})", field.name, shown_unit(unit)),
             None => field.name.clone(),
         };
         let label = ui.add(Label::new(&name).truncate());

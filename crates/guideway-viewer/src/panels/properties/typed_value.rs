@@ -4,6 +4,7 @@ use guideway_layout::Value;
 
 use super::field::FieldKind;
 use crate::language::{say, t};
+use crate::speed_unit::{SpeedUnit, shown_unit, typed_factor};
 
 /// A value that a user entered.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +34,7 @@ impl TypedValue {
     pub(in crate::panels) fn parse(
         text: &str,
         kind: FieldKind,
-        unit: Option<&str>,
+        unit: Option<&'static str>,
     ) -> Result<Option<Self>, String> {
         let text = text.trim();
         if text.is_empty() {
@@ -57,7 +58,9 @@ impl TypedValue {
             FieldKind::Number => match number(text, unit) {
                 Some(number) => Self::Number(number),
                 None => {
-                    let unit = unit.map_or(String::new(), |unit| say!(" in {unit}", unit));
+                    let unit = unit.map_or(String::new(), |unit| {
+                        say!(" in {unit}", unit = shown_unit(unit))
+                    });
                     return Err(say!("{text} is no number{unit}", text, unit));
                 }
             },
@@ -70,9 +73,7 @@ impl TypedValue {
 
 /// Other units that a field understands: unit typed, unit of the field, factor.
 const CONVERSIONS: &[(&str, &str, f64)] = &[
-    ("km/h", "m/s", 1.0 / 3.6),
     ("mm/s", "m/s", 1e-3),
-    ("m/min", "m/s", 1.0 / 60.0),
     ("mm", "m", 1e-3),
     ("cm", "m", 1e-2),
     ("km", "m", 1e3),
@@ -91,13 +92,16 @@ fn number(text: &str, unit: Option<&str>) -> Option<f64> {
     let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.' || c == ',')? + 1;
     let (digits, typed) = (text[..end].trim(), text[end..].trim());
     let factor = match unit {
-        _ if typed.is_empty() => 1.0,
+        _ if typed.is_empty() => typed_factor(unit),
         Some(unit) if typed == unit => 1.0,
         Some(unit) => {
+            let speed = SpeedUnit::named(typed).filter(|_| unit == "m/s");
             let known = CONVERSIONS
                 .iter()
                 .find(|(from, to, _)| (*from, *to) == (typed, unit));
-            known?.2
+            speed
+                .map(|speed| speed.to_m_s(1.0))
+                .or(known.map(|known| known.2))?
         }
         None => return None,
     };
@@ -112,6 +116,7 @@ fn number(text: &str, unit: Option<&str>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::speed_unit::set_speed_unit;
 
     fn speed(text: &str) -> Result<Option<TypedValue>, String> {
         TypedValue::parse(text, FieldKind::Number, Some("m/s"))
@@ -129,6 +134,19 @@ mod tests {
             assert!(speed(text).is_err(), "{text}");
         }
         assert_eq!(speed("abc").unwrap_err(), "abc is no number in m/s");
+    }
+
+    #[test]
+    fn numbers_without_a_unit_have_that_of_the_settings() {
+        set_speed_unit(SpeedUnit::KilometersPerHour);
+        for text in ["5.4", "5.4 km/h", "1.5 m/s"] {
+            let Ok(Some(TypedValue::Number(number))) = speed(text) else {
+                panic!("{text}");
+            };
+            assert!((number - 1.5).abs() < 1e-12, "{text}: {number}");
+        }
+        assert_eq!(speed("abc").unwrap_err(), "abc is no number in km/h");
+        set_speed_unit(SpeedUnit::MetersPerSecond);
     }
 
     #[test]

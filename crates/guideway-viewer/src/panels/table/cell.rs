@@ -9,6 +9,7 @@ use super::super::properties::{FieldKind, TypedValue, kind_of};
 use crate::editing::EditTask;
 use crate::language::{say, t};
 use crate::selection::level_names;
+use crate::speed_unit::shown_value;
 
 /// The text of a cell; empty without a value. Values that differ per vehicle type are listed.
 pub(super) fn cell_text(layout: &Layout, of: Table, column: &Column, row: u32) -> String {
@@ -17,7 +18,7 @@ pub(super) fn cell_text(layout: &Layout, of: Table, column: &Column, row: u32) -
             // `Display` prints no trailing zeros.
             ((m * 1e3).round() / 1e3).to_string()
         }
-        (_, value) => value.to_string(),
+        (_, value) => shown_value(value, column.unit(layout, of)),
     };
     if let Column::Attribute(name) = column
         && of.attributes(layout).value(row as usize, name).is_none()
@@ -34,10 +35,12 @@ fn per_type_text(layout: &Layout, of: Table, name: &str, row: u32) -> String {
         return String::new();
     };
     let all = entries.entries(row as usize);
+    let column = entries.attributes.get(name);
+    let unit = column.and_then(|column| Some(column.quantity?.unit()));
     let values: Vec<(&str, String)> = all
         .filter_map(|entry| {
             let value = entries.attributes.value(entry, name)?;
-            Some((entries.type_of(entry), value.to_string()))
+            Some((entries.type_of(entry), shown_value(value, unit)))
         })
         .collect();
     let is_same = values.windows(2).all(|pair| pair[0].1 == pair[1].1);

@@ -10,6 +10,7 @@ use guideway_scene::Table;
 
 use super::cell::{CellDraft, cell_text};
 use crate::language::t;
+use crate::speed_unit::shown_unit;
 
 const ROW_HEIGHT: f32 = 20.0;
 const NAME_WIDTH: f32 = 170.0;
@@ -233,7 +234,7 @@ fn title_of(column: &Column, layout: &Layout, of: Table) -> String {
         column => column.name(),
     };
     match column.unit(layout, of) {
-        Some(unit) => format!("{name} ({unit})"),
+        Some(unit) => format!("{name} ({})", shown_unit(unit)),
         None => name.to_owned(),
     }
 }
