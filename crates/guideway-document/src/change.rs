@@ -1,9 +1,11 @@
-//! Changes of a document as data: edits of the scene and moves of nodes with their stations.
+//! Changes of a document as data: edits of the scene, moves of nodes with their stations, copies.
 
 use std::sync::Arc;
 
 use guideway_scene::{Edit, TableEdit};
 use guideway_spline::Point;
+
+use crate::elements::Elements;
 
 /// A change of a document; one or more form an undoable step.
 #[derive(Clone, Debug)]
@@ -13,6 +15,19 @@ pub enum Change {
     /// New positions of nodes, in meters. A station with a position of its own moves along, by the
     /// mean of the moves of its nodes. Paths stay.
     MoveNodes(NodeMoves),
+    /// Copies of elements. The journal of a million of them has their rows, not their points.
+    Copy(CopiesOf),
+}
+
+/// Copies of elements, each a step from the one before.
+#[derive(Clone, Debug)]
+pub struct CopiesOf {
+    /// Paths with all of their end nodes, nodes and stations.
+    pub elements: Arc<Elements>,
+    /// Number of copies.
+    pub count: u32,
+    /// Distance from one copy to the next one, in meters.
+    pub step_m: Point<f64>,
 }
 
 /// Rows of nodes and their new positions, in meters.
@@ -37,6 +52,7 @@ impl Change {
             + match self {
                 Self::Scene(edit) => edit.heap_bytes(),
                 Self::MoveNodes(nodes) => size_of_val(&**nodes),
+                Self::Copy(copies) => copies.elements.heap_bytes(),
             }
     }
 }

@@ -36,11 +36,12 @@ mod snap;
 mod snapshot;
 mod view_history;
 
-pub use change::{Change, NodeMoves};
+pub use change::{Change, CopiesOf, NodeMoves};
 pub use document::Document;
 pub use edit::{
-    AlignTo, Clip, Drawing, DrawnCurve, EdgeTemplate, Neighbors, NewCells, NewEdge, OperationError,
-    PointRef, PropertyRef, Shape, ShapeError, Welded, drawn_path,
+    AlignTo, Clip, Drawing, DrawnCurve, EdgeTemplate, LevelContent, LevelFacts, Neighbors,
+    NewCells, NewEdge, OperationError, PointRef, PropertyRef, PropertyValues, Shape, ShapeError,
+    TypeUse, Welded, drawn_path,
 };
 pub use element::Element;
 pub use elements::Elements;

@@ -1,5 +1,7 @@
 //! [`Layout`]: the contents of one layout file, and [`Provenance`], its origin.
 
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use guideway_spline::{Affine, Point};
@@ -59,6 +61,46 @@ impl Layout {
             .iter()
             .position(|l| l.id == name || l.name.as_deref() == Some(name));
         found.map(|i| i as u32)
+    }
+
+    /// Inserts a level. The rows of the levels from `row` on grow by one.
+    ///
+    /// # Panics
+    /// When `row` is greater than the number of levels.
+    pub fn insert_level(&mut self, row: u32, level: Level) {
+        self.levels.insert(row as usize, level);
+        self.renumber_levels(|other| Some(other + u32::from(other >= row)));
+    }
+
+    /// Removes a level. The rows of the levels after it shrink by one; what is on it is on no level
+    /// then.
+    ///
+    /// # Panics
+    /// When the level does not exist.
+    pub fn remove_level(&mut self, row: u32) -> Level {
+        self.renumber_levels(|other| match other.cmp(&row) {
+            Ordering::Less => Some(other),
+            Ordering::Equal => None,
+            Ordering::Greater => Some(other - 1),
+        });
+        self.levels.remove(row as usize)
+    }
+
+    fn renumber_levels(&mut self, row: impl Fn(u32) -> Option<u32>) {
+        self.paths.renumber_levels(&row);
+        self.nodes.renumber_levels(&row);
+        self.stations.renumber_levels(&row);
+        let zones = self.zones.iter_mut();
+        zones.for_each(|zone| zone.level = zone.level.and_then(&row));
+    }
+
+    /// Names of the vehicle types that paths, nodes or the table of vehicle types name, in
+    /// alphabetical order.
+    pub fn vehicle_type_names(&self) -> BTreeSet<&str> {
+        let of_elements = [&self.paths.vehicle_types(), &self.nodes.vehicle_types()];
+        let of_elements = of_elements.into_iter().flat_map(|entries| entries.names());
+        let of_table = self.vehicle_types.iter().map(|t| t.id.as_str());
+        of_elements.map(String::as_str).chain(of_table).collect()
     }
 
     /// Position of a station, in meters: its own, or that of its first node. `None` without either.

@@ -13,6 +13,9 @@ pub struct Level {
     pub elevation_m: Option<f64>,
     /// Further properties, in one row.
     pub attributes: Attributes,
+    /// Number of its object in the file from 0 on, for formats whose writer copies what did not
+    /// change.
+    pub source: Option<u32>,
 }
 
 impl Level {

@@ -79,6 +79,12 @@ impl Nodes {
         self.levels[node as usize]
     }
 
+    /// Maps the level of each node that has one.
+    pub(crate) fn renumber_levels(&mut self, row: impl Fn(u32) -> Option<u32>) {
+        let levels = self.levels.iter_mut();
+        levels.for_each(|level| *level = level.and_then(&row));
+    }
+
     /// Sets the level of a node.
     pub fn set_level(&mut self, node: u32, level: Option<u32>) {
         self.levels[node as usize] = level;

@@ -85,6 +85,12 @@ impl Stations {
         self.levels[station as usize]
     }
 
+    /// Maps the level of each station that has one.
+    pub(crate) fn renumber_levels(&mut self, row: impl Fn(u32) -> Option<u32>) {
+        let levels = self.levels.iter_mut();
+        levels.for_each(|level| *level = level.and_then(&row));
+    }
+
     /// Sets the level of a station.
     pub fn set_level(&mut self, station: u32, level: Option<u32>) {
         self.levels[station as usize] = level;

@@ -30,6 +30,14 @@ impl WrittenCurve {
         }
     }
 
+    /// Heap bytes in use, with those of the curve itself.
+    pub fn heap_bytes(&self) -> usize {
+        let weights = self.weights.as_ref().map_or(0, Vec::len);
+        size_of::<Self>()
+            + (self.knots.len() + weights) * size_of::<f64>()
+            + self.points_m.len() * size_of::<Point<f64>>()
+    }
+
     /// The same curve from its end to its start.
     #[must_use]
     pub fn reversed(&self) -> Self {
@@ -83,7 +91,8 @@ impl WrittenCurves {
         }
     }
 
-    pub(crate) fn shared(&self, path: usize) -> Option<Arc<WrittenCurve>> {
+    /// The written curve of a path, shared.
+    pub fn shared(&self, path: usize) -> Option<Arc<WrittenCurve>> {
         self.0.get(&(path as u32)).cloned()
     }
 
@@ -107,13 +116,7 @@ impl WrittenCurves {
 
     /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
-        let bytes = |curve: &Arc<WrittenCurve>| {
-            let weights = curve.weights.as_ref().map_or(0, Vec::len);
-            size_of::<WrittenCurve>()
-                + (curve.knots.len() + weights) * size_of::<f64>()
-                + curve.points_m.len() * size_of::<Point<f64>>()
-        };
-        self.0.values().map(bytes).sum()
+        self.0.values().map(|curve| curve.heap_bytes()).sum()
     }
 }
 

@@ -59,6 +59,21 @@ impl Table {
         }
     }
 
+    /// Sets the level of an element.
+    pub(crate) fn set_level(self, layout: &mut Layout, row: u32, level: Option<u32>) {
+        match self {
+            Self::Paths => layout.paths.set_level(row as usize, level),
+            Self::Nodes => layout.nodes.set_level(row, level),
+            Self::Stations => layout.stations.set_level(row, level),
+        }
+    }
+
+    /// Rows of the elements on a level, of removed ones too.
+    pub(crate) fn on_level(self, layout: &Layout, level: u32) -> impl Iterator<Item = u32> {
+        let rows = 0..self.row_count(layout) as u32;
+        rows.filter(move |&row| self.level(layout, row) == Some(level))
+    }
+
     /// The columns that hold for all vehicle types.
     pub fn attributes(self, layout: &Layout) -> &Attributes {
         match self {

@@ -19,6 +19,8 @@ pub(crate) enum Action {
     Command(Command),
     /// Edits the active document.
     Edit(EditTask),
+    /// Opens the dialog of a level or a vehicle type.
+    ShowGroup(GroupRequest),
     /// Selects the paths that match the query of the find panel.
     SelectByQuery(SelectMode),
     /// Searches for the name of the find panel.
@@ -81,6 +83,17 @@ pub(crate) enum Action {
     QuitWithoutSaving,
     /// Saves the files that the leave dialog is about, then closes them.
     SaveAndLeave,
+}
+
+/// A level or a vehicle type to create, change or delete.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum GroupRequest {
+    NewLevel,
+    /// The level of this row.
+    Level(u32),
+    NewVehicleType,
+    /// The vehicle type of this name.
+    VehicleType(String),
 }
 
 /// A picture to write.

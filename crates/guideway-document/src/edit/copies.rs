@@ -3,15 +3,14 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Layout, WrittenCurves};
+use guideway_layout::Layout;
 use guideway_scene::{Edit, EditError, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
 use guideway_spline::{Affine, Point};
 
 use super::curves::mapped_runs;
 use super::names::Names;
-use super::perform::reshape_as_written;
 use crate::PathSet;
-use crate::change::Change;
+use crate::change::{Change, CopiesOf};
 use crate::document::Document;
 use crate::elements::Elements;
 
@@ -34,8 +33,6 @@ pub(super) struct Copies<'a> {
     first_rows: [u32; 3],
     nodes: Vec<NewNode>,
     paths: Vec<Insertion>,
-    /// Curves of the new paths as they were written, by their indices.
-    written: WrittenCurves,
     stations: Vec<NewStation>,
 }
 
@@ -48,7 +45,6 @@ impl<'a> Copies<'a> {
             first_rows: tables.map(|of| of.row_count(scene.layout()) as u32),
             nodes: Vec::new(),
             paths: Vec::new(),
-            written: WrittenCurves::default(),
             stations: Vec::new(),
         }
     }
@@ -93,8 +89,6 @@ impl<'a> Copies<'a> {
         for row in &elements.paths {
             let (paths, at) = (&layout.paths, row as usize);
             let path = paths.get(at);
-            let written = paths.written_curve(at).map(|curve| curve.mapped(by).into());
-            self.written.set(self.paths.len(), written);
             let ends = [path.start_node(), path.end_node()];
             let new_ends = ends.map(|end| end.and_then(node));
             // A path that is called after its ends is called after those of the copy.
@@ -125,6 +119,11 @@ impl<'a> Copies<'a> {
                 vehicle_types: paths.vehicle_types().of(at).map(str::to_owned).collect(),
                 style: paths.own_style(at),
                 attributes_of: own(row),
+                rank: paths
+                    .rank()
+                    .filter(|_| !source.is_own)
+                    .map(|ranks| ranks[at]),
+                written: paths.written_curve(at).map(|curve| curve.mapped(by).into()),
             });
         }
         for row in &elements.stations {
@@ -151,30 +150,20 @@ impl<'a> Copies<'a> {
         }
     }
 
-    /// The change that sets the written curves of the inserted paths, if they have some.
-    fn written_curves(&self) -> Option<Change> {
-        let places: Vec<usize> = self.written.iter().map(|(at, _)| at).collect();
-        let rows = places.iter().map(|&at| self.first_rows[0] + at as u32);
-        let curves = places.iter().map(|&at| &self.paths[at].runs);
-        let written = self.written.select(&places);
-        (!written.is_empty()).then(|| reshape_as_written(rows.collect(), curves, written))
-    }
-
-    /// The changes that insert the copies.
-    pub(super) fn into_changes(self) -> Vec<Change> {
-        let written = self.written_curves();
-        let mut changes: Vec<Change> = Vec::new();
+    /// The edits that insert the copies.
+    pub(super) fn into_edits(self) -> Vec<Edit> {
+        let mut edits = Vec::new();
         if !self.nodes.is_empty() {
-            changes.push(TableEdit::InsertNodes(self.nodes.into()).into());
+            edits.push(Edit::Tables(TableEdit::InsertNodes(self.nodes.into())));
         }
         if !self.paths.is_empty() {
-            changes.push(Edit::Insert(self.paths.into()).into());
+            edits.push(Edit::Insert(self.paths.into()));
         }
-        changes.extend(written);
         if !self.stations.is_empty() {
-            changes.push(TableEdit::InsertStations(self.stations.into()).into());
+            let stations = TableEdit::InsertStations(self.stations.into());
+            edits.push(Edit::Tables(stations));
         }
-        changes
+        edits
     }
 }
 
@@ -207,21 +196,39 @@ impl Document {
         if all.is_empty() || count == 0 {
             return Ok(Elements::default());
         }
-        let layout = self.layout();
+        let rows = Table::ALL.map(|of| {
+            let first = of.row_count(self.layout()) as u32;
+            first..first + all.rows(of).len() as u32 * count
+        });
+        let copies = CopiesOf {
+            elements: Arc::new(all),
+            count,
+            step_m,
+        };
+        self.perform("copy", vec![Change::Copy(copies)])?;
+        let [paths, nodes, stations] = rows.map(|rows| rows.collect::<PathSet>());
+        self.selection = Arc::new(Elements::of_paths(&paths));
+        Ok(Elements {
+            paths,
+            nodes,
+            stations,
+        })
+    }
+
+    /// The new rows of copies.
+    pub(super) fn copies_of(&self, of: &CopiesOf) -> Copies<'_> {
         let mut copies = Copies::into(&self.scene);
-        for number in 1..=count {
+        for number in 1..=of.count {
             let source = Source {
-                layout,
-                elements: &all,
+                layout: self.layout(),
+                elements: &of.elements,
                 is_own: true,
                 number: Some(number),
                 levels: None,
             };
-            copies.add(&source, Affine::translation(step_m * f64::from(number)));
+            let by = Affine::translation(of.step_m * f64::from(number));
+            copies.add(&source, by);
         }
-        let (rows, changes) = (copies.rows(), copies.into_changes());
-        self.perform("copy", changes)?;
-        self.selection = Arc::new(Elements::of_paths(&rows.paths));
-        Ok(rows)
+        copies
     }
 }

@@ -18,11 +18,7 @@ impl Document {
     /// # Errors
     /// When the scene rejects a change; the document is unchanged.
     pub fn delete_selection(&mut self) -> Result<(), EditError> {
-        let mut all = Elements::clone(&self.selection);
-        for node in &self.selection.nodes {
-            all.paths.extend(self.existing_paths_at(node));
-        }
-        let changes = self.deletion_of(&all);
+        let changes = self.deletion_with_paths(&self.selection);
         self.perform("delete", changes)
     }
 
@@ -50,6 +46,16 @@ impl Document {
         }
         let changes = self.deletion_of(&all);
         Ok(self.perform("delete", changes)?)
+    }
+
+    /// The deletion of elements, of the paths of the nodes among them, and of the nodes that only
+    /// these paths use.
+    pub(super) fn deletion_with_paths(&self, elements: &Elements) -> Vec<Change> {
+        let mut all = elements.clone();
+        for node in &elements.nodes {
+            all.paths.extend(self.existing_paths_at(node));
+        }
+        self.deletion_of(&all)
     }
 
     fn deletion_of(&self, elements: &Elements) -> Vec<Change> {

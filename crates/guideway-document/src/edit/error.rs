@@ -11,7 +11,7 @@ pub enum OperationError {
     /// Another element of the table has the identifier.
     #[error("another {what} is called `{id}`; choose a name that no {what} has")]
     IdTaken {
-        /// `path`, `node` or `station`.
+        /// `path`, `node`, `station`, `level` or `vehicle type`.
         what: &'static str,
         /// The requested identifier.
         id: String,
@@ -65,6 +65,67 @@ pub enum OperationError {
         path: String,
         /// Number of the paths that stay.
         count: usize,
+    },
+    /// A level that is to be deleted has elements that are to be kept.
+    #[error(
+        "the level `{level}` has {paths} paths, {nodes} nodes, {stations} stations and {zones} \
+         zones; move them to another level, or delete them too"
+    )]
+    LevelInUse {
+        /// Identifier of the level.
+        level: String,
+        /// Number of its paths.
+        paths: u64,
+        /// Number of its nodes.
+        nodes: u64,
+        /// Number of its stations.
+        stations: u64,
+        /// Number of its zones.
+        zones: usize,
+    },
+    /// The elements of a deleted level would move to itself.
+    #[error("the elements of the level `{level}` cannot move to itself; choose another level")]
+    SameLevel {
+        /// Identifier of the level.
+        level: String,
+    },
+    /// There is no such vehicle type.
+    #[error("no vehicle type is called `{name}`; name one that exists, or create it first")]
+    UnknownVehicleType {
+        /// The requested name.
+        name: String,
+    },
+    /// A vehicle type that is to be deleted is in use, or has properties.
+    #[error(
+        "{paths} paths and {nodes} nodes name the vehicle type `{name}`, and it has {properties} \
+         properties of its own; give them another type, or take it off them"
+    )]
+    VehicleTypeInUse {
+        /// Name of the vehicle type.
+        name: String,
+        /// Number of the paths that it may use.
+        paths: usize,
+        /// Number of the nodes with an entry for it.
+        nodes: usize,
+        /// Number of its properties.
+        properties: usize,
+    },
+    /// A deleted vehicle type would be replaced by itself.
+    #[error("the vehicle type `{name}` cannot replace itself; choose another one")]
+    SameVehicleType {
+        /// Name of the vehicle type.
+        name: String,
+    },
+    /// A path would be open to all vehicle types without the only one that may use it.
+    #[error(
+        "without the vehicle type `{name}` the path `{path}` would be open to all types; give it \
+         another type first, or replace the type by another one"
+    )]
+    OpensPath {
+        /// Identifier of the path.
+        path: String,
+        /// Name of the vehicle type.
+        name: String,
     },
     /// A straight path would have no length.
     #[error(

@@ -4,7 +4,8 @@
 //! |---|---|---|
 //! | `transform`, `node_moves`, `points` | elements, nodes, control points | moved elements, and what follows them |
 //! | `draw`, `create` | positions, nodes | new paths, nodes and stations |
-//! | `properties`, `vehicle_types`, `levels`, `directions`, `rename` | elements | other properties |
+//! | `properties`, `directions`, `rename` | elements | other properties |
+//! | `levels`, `vehicle_types` | names, elements | levels, vehicle types, and elements with them |
 //! | `copies`, `clip`, `paste` | elements | copies in the same or another document |
 //! | `delete` | elements | removed rows |
 //! | `curves`, `lengths`, `names`, `property_value`, `elements`, `error` | | parts of the above |
@@ -41,7 +42,9 @@ pub use create::NewEdge;
 pub(crate) use curves::runs_of;
 pub use draw::drawn_path;
 pub use error::OperationError;
+pub use levels::{LevelContent, LevelFacts, PropertyValues};
 pub use points::PointRef;
 pub use properties::PropertyRef;
 pub use shapes::{AlignTo, Drawing, DrawnCurve, EdgeTemplate, Shape, ShapeError, Welded};
 pub use transform::Neighbors;
+pub use vehicle_types::TypeUse;

@@ -47,7 +47,9 @@ impl Document {
             levels: Some(&levels),
         };
         copies.add(&source, by);
-        let (rows, mut changes) = (copies.rows(), copies.into_changes());
+        let rows = copies.rows();
+        let edits = copies.into_edits().into_iter();
+        let mut changes: Vec<Change> = edits.map(Change::Scene).collect();
         for of in Table::ALL {
             let first = rows.rows(of).min().unwrap_or(0);
             changes.extend(values_of(of, clip.layout(), first));

@@ -105,6 +105,12 @@ impl Document {
     /// Applies all changes or none. Returns the inverse changes, in the order to apply them.
     fn apply(&mut self, changes: &[Change]) -> Result<Vec<Change>, EditError> {
         self.revision += 1;
+        for change in changes {
+            if let Change::Copy(copies) = change {
+                // A journal may name rows that do not exist.
+                self.check_exist(&copies.elements)?;
+            }
+        }
         let mut inverse = Vec::new();
         for change in changes {
             for edit in self.edits_of(change) {
@@ -131,6 +137,7 @@ impl Document {
     fn edits_of(&self, change: &Change) -> Vec<Edit> {
         match change {
             Change::Scene(edit) => vec![edit.clone()],
+            Change::Copy(copies) => self.copies_of(copies).into_edits(),
             Change::MoveNodes(to) => {
                 let stations = self.stations_after(to);
                 let nodes = TableEdit::MoveNodes(Arc::clone(to));
@@ -168,6 +175,18 @@ impl Document {
         after.collect()
     }
 
+    /// Keeps the levels that are shown and drawn on, whose rows an edit may change.
+    fn renumber_levels(&mut self, edit: &TableEdit) {
+        self.level = self.level.and_then(|level| edit.level_after(level));
+        if matches!(
+            edit,
+            TableEdit::InsertLevel { .. } | TableEdit::RemoveLevel(_)
+        ) {
+            let hidden = self.hidden_levels.iter();
+            self.hidden_levels = hidden.filter_map(|level| edit.level_after(level)).collect();
+        }
+    }
+
     fn edit_scene(&mut self, edit: &Edit) -> Result<Edit, EditError> {
         let undo = self
             .scene
@@ -178,6 +197,7 @@ impl Document {
         };
         self.index.update(changed, self.scene.layout());
         if let (Edit::Tables(edit), Edit::Tables(undo)) = (edit, &undo) {
+            self.renumber_levels(edit);
             self.index.update_tables(edit, undo, &self.scene);
         }
         Ok(undo)

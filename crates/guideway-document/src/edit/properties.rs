@@ -7,7 +7,7 @@ use guideway_layout::{Attributes, TypeEntries, Value, Values};
 use guideway_scene::{Table, TableEdit};
 
 use super::error::OperationError;
-use super::property_value::accepted;
+use super::property_value::{accepted, kind_of};
 use super::vehicle_types::with_type;
 use crate::PathSet;
 use crate::change::Change;
@@ -74,7 +74,7 @@ impl Document {
             .into_iter()
             .flatten()
             .find_map(|columns| columns.get(name));
-        let (value, quantity) = accepted(of, name, known, value)?;
+        let (value, quantity) = accepted(kind_of(of), name, known, value)?;
         let set = |vehicle_type: Option<&str>, rows: Vec<u32>, values: Values| {
             let edit = TableEdit::SetValues {
                 of,

@@ -1,6 +1,8 @@
 //! Values of properties: whether a property takes a value, and in which type and unit.
 
-use guideway_layout::{Attribute, ElementKind, Property, PropertyKind, Quantity, Value, Values};
+use guideway_layout::{
+    Attribute, Attributes, ElementKind, Property, PropertyKind, Quantity, Value, Values,
+};
 use guideway_scene::Table;
 
 use super::error::OperationError;
@@ -8,9 +10,9 @@ use super::error::OperationError;
 /// The value as the property stores it, and the quantity of its column.
 ///
 /// # Errors
-/// When elements of the table do not have the property, or it takes other values.
+/// When elements of the kind do not have the property, or it takes other values.
 pub(super) fn accepted<'a>(
-    of: Table,
+    of: ElementKind,
     name: &str,
     column: Option<&Attribute>,
     value: Option<Value<'a>>,
@@ -22,11 +24,11 @@ pub(super) fn accepted<'a>(
     };
     let known = Property::named(name);
     if let (Some(property), None) = (known, column)
-        && !property.of.contains(&kind_of(of))
+        && !property.of.contains(&of)
     {
         return Err(OperationError::WrongElement {
             property: name.to_owned(),
-            what: of.element(),
+            what: kind_name(of),
             of: element_names(property.of),
         });
     }
@@ -49,6 +51,27 @@ pub(super) fn accepted<'a>(
         Some(column) => Ok((Some(value), column.quantity.or(quantity))),
         None => Ok((Some(value), quantity)),
     }
+}
+
+/// Sets the properties of a table of one row; one without a value loses its column.
+///
+/// # Errors
+/// As [`accepted`].
+pub(super) fn set_all(
+    of: ElementKind,
+    attributes: &mut Attributes,
+    properties: &[(&str, Option<Value<'_>>)],
+) -> Result<(), OperationError> {
+    for &(name, value) in properties {
+        match accepted(of, name, attributes.get(name), value)? {
+            (None, _) => drop(attributes.remove(name)),
+            (value, quantity) => {
+                let values = [value].into_iter().collect();
+                attributes.set_rows(name, quantity, [0], &values);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Name of the type of a column, with its unit.
@@ -121,7 +144,8 @@ fn type_name(values: &Values) -> &'static str {
     }
 }
 
-fn kind_of(of: Table) -> ElementKind {
+/// The kind of the elements of a table.
+pub(super) fn kind_of(of: Table) -> ElementKind {
     match of {
         Table::Paths => ElementKind::Path,
         Table::Nodes => ElementKind::Node,
@@ -130,7 +154,12 @@ fn kind_of(of: Table) -> ElementKind {
 }
 
 fn element_names(kinds: &[ElementKind]) -> String {
-    let name = |kind: &ElementKind| match kind {
+    let names: Vec<&str> = kinds.iter().map(|&kind| kind_name(kind)).collect();
+    names.join(" or a ")
+}
+
+fn kind_name(kind: ElementKind) -> &'static str {
+    match kind {
         ElementKind::Path => "path",
         ElementKind::Node => "node",
         ElementKind::Station => "station",
@@ -138,6 +167,5 @@ fn element_names(kinds: &[ElementKind]) -> String {
         ElementKind::VehicleType => "vehicle type",
         ElementKind::Block => "block",
         ElementKind::Zone => "zone",
-    };
-    kinds.iter().map(name).collect::<Vec<_>>().join(" or a ")
+    }
 }

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use guideway_layout::{Geometry, OwnStyle, WrittenCurve, WrittenCurves};
-use guideway_scene::{Edit, Insertion, PathState};
+use guideway_scene::{Edit, Insertion, PathState, Table};
 use guideway_spline::{Affine, Point, Runs};
 
 use super::entry::JournalEntry;
 use super::tag;
-use crate::change::Change;
+use crate::change::{Change, CopiesOf};
+use crate::elements::Elements;
 
 /// The entry of a payload; `None` if the payload is invalid.
 pub(super) fn decode(bytes: &[u8]) -> Option<JournalEntry> {
@@ -105,14 +106,41 @@ impl Decoder<'_> {
                 Edit::SetStates(self.list(state)?.into())
             }
             tag::INSERT => Edit::Insert(self.list(Self::insertion)?.into()),
+            tag::INSERT_AS_WRITTEN => {
+                let path = |input: &mut Self| {
+                    let plain = input.insertion()?;
+                    Some(Insertion {
+                        rank: input.optional()?.map(u32::cast_signed),
+                        written: match input.byte()? {
+                            0 => None,
+                            _ => Some(Arc::new(input.written_curve()?)),
+                        },
+                        ..plain
+                    })
+                };
+                Edit::Insert(self.list(path)?.into())
+            }
             tag::MOVE_NODES => {
                 let node = |input: &mut Self| Some((input.number()?, input.point()?));
                 return Some(Change::MoveNodes(self.list(node)?.into()));
             }
+            tag::COPY => return Some(Change::Copy(self.copies()?)),
             tag::TABLES => Edit::Tables(self.tables()?),
             _ => return None,
         };
         Some(Change::Scene(edit))
+    }
+
+    fn copies(&mut self) -> Option<CopiesOf> {
+        let mut elements = Elements::default();
+        for of in Table::ALL {
+            *elements.rows_mut(of) = self.list(Self::number)?.into_iter().collect();
+        }
+        Some(CopiesOf {
+            elements: Arc::new(elements),
+            count: self.number()?,
+            step_m: self.point()?,
+        })
     }
 
     fn state(&mut self) -> Option<PathState> {
@@ -142,6 +170,7 @@ impl Decoder<'_> {
             vehicle_types: self.list(Self::text)?,
             style: self.style()?,
             attributes_of: self.optional()?,
+            ..Insertion::default()
         })
     }
 
@@ -161,18 +190,21 @@ impl Decoder<'_> {
         let mut curves = WrittenCurves::default();
         for _ in 0..self.number()? {
             let place = self.number()? as usize;
-            let (degree, knots, points_m) = (self.number()?, self.numbers()?, self.points()?);
-            let has_weights = self.byte()? != 0;
-            let weights = self.numbers()?;
-            let curve = WrittenCurve {
-                degree,
-                knots,
-                points_m,
-                weights: has_weights.then_some(weights),
-            };
-            curves.set(place, Some(curve.into()));
+            curves.set(place, Some(self.written_curve()?.into()));
         }
         Some(curves)
+    }
+
+    fn written_curve(&mut self) -> Option<WrittenCurve> {
+        let (degree, knots, points_m) = (self.number()?, self.numbers()?, self.points()?);
+        let has_weights = self.byte()? != 0;
+        let weights = self.numbers()?;
+        Some(WrittenCurve {
+            degree,
+            knots,
+            points_m,
+            weights: has_weights.then_some(weights),
+        })
     }
 
     fn numbers(&mut self) -> Option<Vec<f64>> {

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Direction, Member, Quantity, TextCells, TypeEntries, Values};
+use guideway_layout::{
+    Attribute, Attributes, Direction, Level, Member, Quantity, TextCells, TypeEntries, Values,
+    VehicleType,
+};
 use guideway_scene::{NewNode, NewStation, Table, TableEdit};
 use guideway_spline::Point;
 
@@ -108,6 +111,31 @@ impl Decoder<'_> {
                     rows: self.list(exists)?.into(),
                 }
             }
+            (tag::SET_ZONE_LEVELS, _) => {
+                let level = |input: &mut Self| Some((input.number()?, input.optional()?));
+                TableEdit::SetZoneLevels(self.list(level)?.into())
+            }
+            (tag::INSERT_LEVEL, _) => TableEdit::InsertLevel {
+                row: self.number()?,
+                level: Arc::new(self.level()?),
+                elements: Arc::new([
+                    self.list(Self::number)?,
+                    self.list(Self::number)?,
+                    self.list(Self::number)?,
+                ]),
+            },
+            (tag::REMOVE_LEVEL, _) => TableEdit::RemoveLevel(self.number()?),
+            (tag::SET_LEVEL, _) => TableEdit::SetLevel {
+                row: self.number()?,
+                level: Arc::new(self.level()?),
+            },
+            (tag::SET_VEHICLE_TYPES, _) => {
+                let of_type = |input: &mut Self| {
+                    let (id, attributes) = (input.text()?, input.columns()?);
+                    Some(VehicleType { id, attributes })
+                };
+                TableEdit::SetVehicleTypes(self.list(of_type)?.into())
+            }
             _ => return None,
         })
     }
@@ -200,11 +228,29 @@ impl Decoder<'_> {
             let types: Vec<&str> = types.iter().map(String::as_str).collect();
             entries.push(&types);
         }
+        entries.attributes = self.columns()?;
+        Some(entries)
+    }
+
+    fn columns(&mut self) -> Option<Attributes> {
+        let mut attributes = Attributes::default();
         let columns = self.list(Self::column)?;
         columns
             .into_iter()
-            .for_each(|column| entries.attributes.insert(column));
-        Some(entries)
+            .for_each(|column| attributes.insert(column));
+        Some(attributes)
+    }
+
+    fn level(&mut self) -> Option<Level> {
+        let (id, name) = (self.text()?, self.optional_text()?);
+        let height_m = self.list(|input| input.take().map(f64::from_le_bytes))?;
+        Some(Level {
+            id,
+            name,
+            elevation_m: height_m.first().copied(),
+            attributes: self.columns()?,
+            source: self.optional()?,
+        })
     }
 
     fn node(&mut self) -> Option<NewNode> {

@@ -1,7 +1,7 @@
 //! Encodes journal entries as payload bytes. `decode` is the inverse.
 
 use guideway_layout::{Geometry, OwnStyle, RunPoints, WrittenCurve};
-use guideway_scene::{Edit, Insertion, PathState};
+use guideway_scene::{Edit, Insertion, PathState, Table};
 use guideway_spline::Point;
 
 use super::entry::JournalEntry;
@@ -73,6 +73,16 @@ impl Encoder {
                     out.point(at);
                 });
             }
+            Change::Copy(copies) => {
+                self.byte(tag::COPY);
+                for of in Table::ALL {
+                    let rows = copies.elements.rows(of);
+                    self.number(rows.len() as u32);
+                    rows.iter().for_each(|row| self.number(row));
+                }
+                self.number(copies.count);
+                self.point(copies.step_m);
+            }
         }
     }
 
@@ -123,8 +133,21 @@ impl Encoder {
                 });
             }
             Edit::Insert(paths) => {
-                self.byte(tag::INSERT);
-                self.list(paths, Self::insertion);
+                let is_plain = |path: &Insertion| path.rank.is_none() && path.written.is_none();
+                if paths.iter().all(is_plain) {
+                    self.byte(tag::INSERT);
+                    self.list(paths, Self::insertion);
+                } else {
+                    self.byte(tag::INSERT_AS_WRITTEN);
+                    self.list(paths, |out, path| {
+                        out.insertion(path);
+                        out.optional(path.rank.map(i32::cast_unsigned));
+                        out.byte(u8::from(path.written.is_some()));
+                        if let Some(curve) = &path.written {
+                            out.written_curve(curve);
+                        }
+                    });
+                }
             }
             Edit::Tables(edit) => {
                 self.byte(tag::TABLES);

@@ -1,7 +1,7 @@
 //! Encodes edits of tables as payload bytes. `decode_tables` is the inverse.
 
 use guideway_layout::{
-    Attribute, Attributes, Direction, Member, Quantity, TypeEntries, Value, Values,
+    Attribute, Attributes, Direction, Level, Member, Quantity, TypeEntries, Value, Values,
 };
 use guideway_scene::{NewNode, NewStation, Table, TableEdit};
 
@@ -117,6 +117,41 @@ impl Encoder {
                     out.byte(u8::from(exists));
                 });
             }
+            TableEdit::SetZoneLevels(levels) => {
+                self.table_edit(tag::SET_ZONE_LEVELS, Table::Paths);
+                self.list(levels, |out, &(zone, level)| {
+                    out.number(zone);
+                    out.optional(level);
+                });
+            }
+            TableEdit::InsertLevel {
+                row,
+                level,
+                elements,
+            } => {
+                self.table_edit(tag::INSERT_LEVEL, Table::Paths);
+                self.number(*row);
+                self.level(level);
+                for rows in &**elements {
+                    self.list(rows, |out, &row| out.number(row));
+                }
+            }
+            TableEdit::RemoveLevel(row) => {
+                self.table_edit(tag::REMOVE_LEVEL, Table::Paths);
+                self.number(*row);
+            }
+            TableEdit::SetLevel { row, level } => {
+                self.table_edit(tag::SET_LEVEL, Table::Paths);
+                self.number(*row);
+                self.level(level);
+            }
+            TableEdit::SetVehicleTypes(types) => {
+                self.table_edit(tag::SET_VEHICLE_TYPES, Table::Paths);
+                self.list(types, |out, of_type| {
+                    out.text(&of_type.id);
+                    out.columns(&of_type.attributes);
+                });
+            }
         }
     }
 
@@ -202,6 +237,15 @@ impl Encoder {
     fn columns(&mut self, columns: &Attributes) {
         self.number(columns.iter().len() as u32);
         columns.iter().for_each(|column| self.column(column));
+    }
+
+    fn level(&mut self, level: &Level) {
+        self.text(&level.id);
+        self.optional_text(level.name.as_deref());
+        let height_m = level.elevation_m.as_slice();
+        self.list(height_m, |out, height_m| out.bytes(&height_m.to_le_bytes()));
+        self.columns(&level.attributes);
+        self.optional(level.source);
     }
 
     fn node(&mut self, node: &NewNode) {

@@ -12,6 +12,8 @@ pub(super) const INSERT: u8 = 15;
 pub(super) const MOVE_NODES: u8 = 16;
 pub(super) const TABLES: u8 = 17;
 pub(super) const RESHAPE_AS_WRITTEN: u8 = 18;
+pub(super) const INSERT_AS_WRITTEN: u8 = 19;
+pub(super) const COPY: u8 = 20;
 
 // After `TABLES`:
 pub(super) const SET_IDS: u8 = 1;
@@ -26,3 +28,8 @@ pub(super) const SET_MEMBERS: u8 = 9;
 pub(super) const MOVE: u8 = 10;
 pub(super) const INSERT_PLACES: u8 = 11;
 pub(super) const SET_EXISTS: u8 = 12;
+pub(super) const SET_ZONE_LEVELS: u8 = 13;
+pub(super) const INSERT_LEVEL: u8 = 14;
+pub(super) const REMOVE_LEVEL: u8 = 15;
+pub(super) const SET_LEVEL: u8 = 16;
+pub(super) const SET_VEHICLE_TYPES: u8 = 17;

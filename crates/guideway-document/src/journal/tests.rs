@@ -5,8 +5,8 @@ use std::mem::discriminant;
 use std::sync::Arc;
 
 use guideway_layout::{
-    Attribute, Direction, Geometry, Member, OwnStyle, Quantity, TypeEntries, Value, WrittenCurve,
-    WrittenCurves,
+    Attribute, Attributes, Direction, Geometry, Level, Member, OwnStyle, Quantity, TypeEntries,
+    Value, VehicleType, WrittenCurve, WrittenCurves,
 };
 use guideway_scene::{Edit, Insertion, NewNode, NewStation, PathState, Table, TableEdit};
 use guideway_spline::{Affine, Point, Runs};
@@ -15,7 +15,8 @@ use super::decode::decode;
 use super::encode::encode;
 use super::entry::JournalEntry;
 use super::record::count_records;
-use crate::change::Change;
+use crate::change::{Change, CopiesOf};
+use crate::elements::Elements;
 
 /// An entry with one change of every kind.
 fn every_change() -> JournalEntry {
@@ -45,6 +46,11 @@ fn every_change() -> JournalEntry {
         attributes_of: Some(7),
         ..Insertion::default()
     };
+    let ranked = Insertion {
+        rank: Some(-2),
+        written: written.shared(0),
+        ..insertion.clone()
+    };
     let edits = [
         Edit::Transform {
             paths: [1, 2].into(),
@@ -63,9 +69,15 @@ fn every_change() -> JournalEntry {
         Edit::Restyle([(1, style)].into()),
         Edit::SetStates([(1, PathState::Hidden), (2, PathState::Removed)].into()),
         Edit::Insert([insertion].into()),
+        Edit::Insert([ranked].into()),
     ];
     let mut changes: Vec<Change> = edits.into_iter().map(Change::Scene).collect();
     changes.push(Change::MoveNodes([(1, Point::new(5.0, 6.0))].into()));
+    changes.push(Change::Copy(CopiesOf {
+        elements: Arc::new(Elements::of_paths([2, 7])),
+        count: 3,
+        step_m: Point::new(0.5, -1.0),
+    }));
     changes.extend(every_table_edit().into_iter().map(Change::from));
     JournalEntry::Do(changes)
 }
@@ -109,6 +121,19 @@ fn every_table_edit() -> Vec<TableEdit> {
         Table::Stations,
         [Member::Path(1), Member::Node(2), Member::Station(3)],
     );
+    let mut attributes = Attributes::default();
+    attributes.insert(column("maxSpeed", Value::Float(1.0)));
+    let level = Level {
+        id: "upper".into(),
+        name: Some("Mezzanine".into()),
+        elevation_m: Some(4.5),
+        attributes: attributes.clone(),
+        source: Some(1),
+    };
+    let tug = VehicleType {
+        id: "tug".into(),
+        attributes,
+    };
     let mut edits = vec![
         TableEdit::SetIds {
             of,
@@ -154,6 +179,18 @@ fn every_table_edit() -> Vec<TableEdit> {
             of,
             rows: [(1, false), (2, true)].into(),
         },
+        TableEdit::SetZoneLevels([(0, None), (1, Some(2))].into()),
+        TableEdit::InsertLevel {
+            row: 1,
+            level: level.clone().into(),
+            elements: Arc::new([vec![1, 2], Vec::new(), vec![3]]),
+        },
+        TableEdit::RemoveLevel(2),
+        TableEdit::SetLevel {
+            row: 0,
+            level: level.into(),
+        },
+        TableEdit::SetVehicleTypes([VehicleType::default(), tug].into()),
     ];
     edits.extend(values.map(set));
     edits

@@ -1,7 +1,9 @@
 //! Copies inside a document, and from one document into another.
 
 use guideway_document::{Document, Elements, PropertyRef};
-use guideway_layout::{CompareOptions, Layout, Level, NewPath, Quantity, Value, differences};
+use guideway_layout::{
+    CompareOptions, Layout, Level, NewPath, Quantity, Value, WrittenCurve, differences,
+};
 use guideway_scene::{SceneOptions, Table};
 use guideway_spline::{Affine, Runs};
 
@@ -160,4 +162,40 @@ fn copies_of_numbered_elements_go_on_with_the_numbers() {
         .copy(&Elements::of_paths([1]), 1, p(0.0, 5.0))
         .unwrap();
     assert_eq!(document.layout().paths.id(4), "aisle 8");
+}
+
+#[test]
+fn a_paste_keeps_draw_ranks_and_written_curves_in_one_insertion() {
+    let mut layout = square();
+    layout.paths.set_rank(vec![3, 0, -1, 0]);
+    let curve = WrittenCurve {
+        degree: 1,
+        knots: vec![0.0, 0.0, 1.0, 1.0],
+        points_m: vec![p(0.0, 0.0), p(10.0, 0.0)],
+        weights: None,
+    };
+    layout.paths.set_written_curve(0, curve);
+    let source = document_of(layout);
+    let clip = source.clip(&Elements::of_paths([0, 2])).unwrap();
+    let mut other = square();
+    other.paths.set_rank(vec![1; 4]);
+    for target in [Layout::default(), other] {
+        let mut target = document_of(target);
+        let by = Affine::translation(p(0.0, 50.0));
+        let pasted = target.paste(&clip, by, None).unwrap();
+        let rows: Vec<usize> = pasted.paths.iter().map(|row| row as usize).collect();
+        let paths = &target.layout().paths;
+        let ranks = paths.rank().unwrap();
+        assert_eq!([ranks[rows[0]], ranks[rows[1]]], [3, -1]);
+        let written = paths.written_curve(rows[0]).unwrap();
+        assert_eq!(written.points_m, [p(0.0, 50.0), p(10.0, 50.0)]);
+        let entries = target.take_journal_entries();
+        let journal: Vec<u8> = entries.iter().flat_map(|e| e.to_record()).collect();
+        assert!(!journal.is_empty());
+        let end = target.to_layout();
+        target.undo();
+        target.redo();
+        let exact = CompareOptions::default();
+        assert_eq!(differences(&end, &target.to_layout(), &exact), []);
+    }
 }

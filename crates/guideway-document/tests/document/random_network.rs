@@ -9,6 +9,7 @@ use guideway_scene::Table;
 use guideway_spline::{Affine, Point, Runs};
 use proptest::prelude::*;
 
+use crate::random_groups::{GroupAction, group_action};
 use crate::site::{document_of, p};
 
 /// Distance of stations from their nodes in a new network, in meters.
@@ -35,6 +36,7 @@ enum Action {
     Draw(Vec<Point<f64>>),
     Copy([Vec<u32>; 3], u32, Point<f64>),
     Paste([Vec<u32>; 3], Point<f64>),
+    Group(GroupAction),
     Undo,
     Redo,
 }
@@ -83,6 +85,7 @@ fn action() -> impl Strategy<Value = Action> {
         1 => prop::collection::vec(place(), 0..4).prop_map(Action::Draw),
         1 => (elements(), 1..3u32, place()).prop_map(|(e, n, by)| Action::Copy(e, n, by)),
         1 => (elements(), place()).prop_map(|(e, by)| Action::Paste(e, by)),
+        3 => group_action().prop_map(Action::Group),
         2 => Just(Action::Undo),
         1 => Just(Action::Redo),
     ]
@@ -258,6 +261,7 @@ fn perform(document: &mut Document, action: &Action) {
                 drop(document.paste(&clip, Affine::translation(*by), None));
             }
         }
+        Action::Group(action) => action.perform(document),
         Action::Undo => drop(document.undo()),
         Action::Redo => drop(document.redo()),
     }

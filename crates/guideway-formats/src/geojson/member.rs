@@ -44,6 +44,7 @@ impl Mapper<'_> {
                 name: name.map(str::to_owned),
                 elevation_m: level.elevation.get().copied(),
                 attributes: self.single(Owner::Levels, &level.properties, at)?,
+                source: None,
             };
             self.push_level(level);
         }

@@ -278,8 +278,9 @@ impl Mapper<'_> {
         self.builder.layout.levels.push(Level {
             id: id.into_owned(),
             name: name.map(str::to_owned),
-            elevation_m: None,
             attributes,
+            source: Some(self.builder.layout.levels.len() as u32),
+            ..Level::default()
         });
         Ok(())
     }

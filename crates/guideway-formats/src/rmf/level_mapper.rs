@@ -75,6 +75,7 @@ impl<'y> SiteMapper<'_, 'y> {
             name: name.map(str::to_owned),
             elevation_m: elevation.filter(|e| e.is_finite()),
             attributes,
+            source: None,
         });
         let vertices = level.content.get("vertices").into_iter();
         let mut nodes = Vec::with_capacity(level.positions.len());

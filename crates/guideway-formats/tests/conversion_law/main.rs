@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use guideway_formats::{ReadOptions, Target, read_file};
-use guideway_layout::{Direction, Layout, PathRef};
+use guideway_layout::{Direction, Layout, Level, PathRef};
 use guideway_spline::Point;
 use rayon::prelude::*;
 
@@ -90,6 +90,79 @@ fn random_files_of_every_format_lose_what_is_listed() {
         found.into_iter()
     });
     assert_none(found.collect());
+}
+
+/// A saved file has the levels and vehicle types of the layout, not those that it had before.
+#[test]
+fn random_files_with_other_levels_and_types_lose_what_is_listed() {
+    let found = seeds(120).into_par_iter().flat_map_iter(|seed: u64| {
+        let source = Target::ALL[seed as usize % Target::ALL.len()];
+        let converted = law::converted(&random_layout(seed), source);
+        let name = format!("random {} file {seed} with other levels", source.id());
+        let found = match converted {
+            Ok(Some((_, mut layout))) => {
+                change_groups(&mut layout, seed);
+                let targets = Target::ALL.iter();
+                targets
+                    .flat_map(|&target| breaches(&name, &layout, target))
+                    .collect()
+            }
+            Ok(None) | Err(_) => Vec::new(),
+        };
+        found.into_iter()
+    });
+    assert_none(found.collect());
+}
+
+/// Adds, renames and removes levels and vehicle types.
+fn change_groups(layout: &mut Layout, seed: u64) {
+    let new = |id: &str| Level {
+        id: id.into(),
+        ..Level::default()
+    };
+    if seed.is_multiple_of(2) {
+        let row = layout.levels.len() as u32;
+        layout.insert_level(row, new("new level"));
+        for node in (0..layout.nodes.len() as u32).step_by(3) {
+            layout.nodes.set_level(node, Some(row));
+        }
+    }
+    if let Some(level) = layout.levels.first_mut().filter(|_| seed.is_multiple_of(3)) {
+        level.id = "renamed level".into();
+    }
+    if seed.is_multiple_of(5) && layout.levels.len() > 1 {
+        for path in 0..layout.paths.len() {
+            if layout.paths.get(path).level() == Some(0) {
+                layout.paths.set_level(path, Some(1));
+            }
+        }
+        for row in 0..layout.nodes.len() as u32 {
+            if layout.nodes.level(row) == Some(0) {
+                layout.nodes.set_level(row, Some(1));
+            }
+        }
+        for row in 0..layout.stations.len() as u32 {
+            if layout.stations.level(row) == Some(0) {
+                layout.stations.set_level(row, Some(1));
+            }
+        }
+        for zone in layout.zones.iter_mut().filter(|zone| zone.level == Some(0)) {
+            zone.level = Some(1);
+        }
+        layout.remove_level(0);
+    }
+    let first = layout
+        .vehicle_type_names()
+        .first()
+        .map(|&name| name.to_owned());
+    if let Some(name) = first.filter(|_| seed.is_multiple_of(2)) {
+        let new = "renamed type";
+        layout.paths.vehicle_types_mut().rename(&name, new);
+        layout.nodes.vehicle_types_mut().rename(&name, new);
+        for of_name in layout.vehicle_types.iter_mut().filter(|t| t.id == name) {
+            new.clone_into(&mut of_name.id);
+        }
+    }
 }
 
 /// An order holds one route, which random layouts rarely are: a single path is one.

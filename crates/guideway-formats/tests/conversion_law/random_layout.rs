@@ -207,6 +207,14 @@ impl Random {
                 .set_quantity(0, "maxSpeed", 1.5, Quantity::Speed);
             layout.vehicle_types.push(tug);
         }
+        // One without properties, which paths and nodes may name or not.
+        if self.chance(3) {
+            let id = ["fork", "crane"][self.below(2)].to_owned();
+            layout.vehicle_types.push(VehicleType {
+                id,
+                ..VehicleType::default()
+            });
+        }
         if !layout.paths.is_empty() && self.chance(3) {
             layout.blocks.push(Block {
                 id: "b1".into(),

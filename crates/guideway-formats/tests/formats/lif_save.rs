@@ -11,11 +11,11 @@ use guideway_spline::{Affine, Point, Runs};
 
 use crate::common::{real_cases, real_layouts};
 
-fn read(text: &str) -> Layout {
+pub(crate) fn read(text: &str) -> Layout {
     read_bytes("site.json", text.as_bytes(), &ReadOptions::default()).unwrap()
 }
 
-fn saved(layout: &Layout) -> String {
+pub(crate) fn saved(layout: &Layout) -> String {
     let mut out = Vec::new();
     let options = WriteOptions {
         version: Version::of_layout(layout).unwrap(),
@@ -26,7 +26,7 @@ fn saved(layout: &Layout) -> String {
 }
 
 /// Returns the lines that only one of two texts has, with a sign each.
-fn changed_lines(before: &str, after: &str) -> Vec<String> {
+pub(crate) fn changed_lines(before: &str, after: &str) -> Vec<String> {
     let (old, new): (Vec<&str>, Vec<&str>) = (before.lines().collect(), after.lines().collect());
     let same = old.iter().zip(&new).take_while(|(a, b)| a == b).count();
     let rest = old.len().min(new.len()) - same;

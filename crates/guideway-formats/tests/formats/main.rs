@@ -22,6 +22,7 @@ mod lanelet2;
 #[allow(dead_code, reason = "the law test uses more of it")]
 mod law;
 mod lif;
+mod lif_levels;
 mod lif_real;
 mod lif_save;
 mod lif_schema;

@@ -101,6 +101,7 @@ pub(crate) fn network(seed: u64) -> Layout {
             name: random.maybe(|r| r.pick(&TEXTS).to_owned()),
             elevation_m: random.maybe(Random::number),
             attributes: attributes(random, 1),
+            source: None,
         });
     }
     let levels = layout.levels.len();

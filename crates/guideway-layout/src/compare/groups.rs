@@ -33,10 +33,11 @@ pub(super) fn compare(
     found: &mut Differences,
 ) {
     compare_levels([&a.levels, &b.levels], options, found);
-    let id = |t: &VehicleType| t.id.clone();
+    let id = |t: &&VehicleType| t.id.clone();
+    let types = [compared_types(a, b), compared_types(b, a)];
     for [p, q] in pairs(
         "vehicle types",
-        [&a.vehicle_types, &b.vehicle_types],
+        types.each_ref().map(Vec::as_slice),
         id,
         found,
     ) {
@@ -99,6 +100,20 @@ pub(super) fn compare(
         );
     }
     compare_layouts([a, b], options, found);
+}
+
+/// The vehicle types of a layout, without those that have no properties and that another layout
+/// names on its paths or nodes only: its table may lack them.
+fn compared_types<'a>(layout: &'a Layout, other: &Layout) -> Vec<&'a VehicleType> {
+    let named = other.vehicle_type_names();
+    let has_row = |id: &str| other.vehicle_types.iter().any(|t| t.id == id);
+    let has_values = |t: &VehicleType| {
+        let mut columns = t.attributes.iter();
+        columns.any(|column| column.values.get(0).is_some())
+    };
+    let is_compared =
+        |t: &&VehicleType| has_values(t) || has_row(&t.id) || !named.contains(t.id.as_str());
+    layout.vehicle_types.iter().filter(is_compared).collect()
 }
 
 fn compare_levels(levels: [&[Level]; 2], options: &CompareOptions, found: &mut Differences) {

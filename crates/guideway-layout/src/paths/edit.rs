@@ -1,5 +1,7 @@
 //! Edits of paths: sets columns, and the properties of single paths.
 
+use std::sync::Arc;
+
 use guideway_spline::Affine;
 
 use super::table::{NONE, Paths};
@@ -33,6 +35,14 @@ impl Paths {
     pub fn set_levels(&mut self, column: Vec<u32>) {
         assert_eq!(column.len(), self.len());
         self.levels = Some(column);
+    }
+
+    /// Maps the level of each path that has one.
+    pub(crate) fn renumber_levels(&mut self, row: impl Fn(u32) -> Option<u32>) {
+        let levels = self.levels.iter_mut().flatten();
+        for level in levels.filter(|level| **level != NONE) {
+            *level = row(*level).unwrap_or(NONE);
+        }
     }
 
     /// Sets the level of one path.
@@ -113,6 +123,20 @@ impl Paths {
     /// Sets the curve of a path as its file wrote it, beside its runs.
     pub fn set_written_curve(&mut self, path: usize, curve: WrittenCurve) {
         self.written_curves.set(path, Some(curve.into()));
+    }
+
+    /// Keeps the curve of a path as it was written, beside its runs.
+    pub fn share_written_curve(&mut self, path: usize, curve: Arc<WrittenCurve>) {
+        self.written_curves.set(path, Some(curve));
+    }
+
+    /// Sets the draw rank of one path.
+    ///
+    /// # Panics
+    /// When the path is not below [`Self::len`].
+    pub fn set_path_rank(&mut self, path: usize, rank: i32) {
+        let rows = self.len();
+        set(&mut self.rank, rows, path, 0, rank);
     }
 
     /// Copies the draw rank of a path to another one.

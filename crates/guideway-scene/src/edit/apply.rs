@@ -157,6 +157,12 @@ impl Scene {
                 entries.copy_values(from as usize, row);
                 layout.paths.copy_rank(from as usize, row);
             }
+            if let Some(rank) = path.rank {
+                layout.paths.set_path_rank(row, rank);
+            }
+            if let Some(curve) = &path.written {
+                layout.paths.share_written_curve(row, Arc::clone(curve));
+            }
         }
         let rows = self.row_count();
         if let Colors::Each(colors) = &mut self.colors {

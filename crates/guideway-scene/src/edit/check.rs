@@ -57,7 +57,7 @@ impl Edit {
                 })
             }
             Self::Insert(paths) => paths.iter().try_for_each(|path| path.check(scene.layout())),
-            Self::Tables(edit) => edit.check(scene.layout()),
+            Self::Tables(edit) => edit.check(scene),
             Self::Restyle(_) | Self::SetStates(_) => Ok(()),
         }
     }

@@ -61,6 +61,11 @@ pub enum EditError {
     },
     /// An edit of tables sets the states of paths.
     PathState,
+    /// A level to remove still has elements.
+    LevelInUse {
+        /// Row of the level.
+        row: u32,
+    },
 }
 
 impl fmt::Display for EditError {
@@ -119,6 +124,10 @@ impl fmt::Display for EditError {
                 f,
                 "`{column}` per vehicle type is no column yet, or one of another type; create the \
                  column first"
+            ),
+            Self::LevelInUse { row } => write!(
+                f,
+                "the level in row {row} still has elements; move them to another level first"
             ),
             Self::PathState => {
                 write!(

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Direction, Geometry, OwnStyle, WrittenCurves};
+use guideway_layout::{Direction, Geometry, OwnStyle, WrittenCurve, WrittenCurves};
 use guideway_spline::{Affine, Runs};
 
 use super::tables::TableEdit;
@@ -59,6 +59,10 @@ pub struct Insertion {
     pub style: OwnStyle,
     /// Row of the path whose attributes it copies, if any, those per vehicle type too.
     pub attributes_of: Option<u32>,
+    /// Draw rank; `None` is that of the path whose attributes it copies, else the lowest of all.
+    pub rank: Option<i32>,
+    /// The curve as its file wrote it, which `runs` draw.
+    pub written: Option<Arc<WrittenCurve>>,
 }
 
 impl Edit {
@@ -108,6 +112,7 @@ impl Insertion {
     fn heap_bytes(&self) -> usize {
         let points: usize = self.runs.iter().map(size_of_val).sum();
         let types: usize = self.vehicle_types.iter().map(String::capacity).sum();
-        self.id.capacity() + points + types
+        let written = self.written.as_ref().map_or(0, |curve| curve.heap_bytes());
+        self.id.capacity() + points + types + written
     }
 }

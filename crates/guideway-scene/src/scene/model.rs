@@ -45,7 +45,7 @@ pub struct Scene {
     /// Removed nodes and stations, by row; rows past the end exist.
     removed_places: [Vec<bool>; 2],
     /// The only visible level; `None` shows all.
-    level: Option<u32>,
+    pub(crate) level: Option<u32>,
     draw_order: Vec<u32>,
     /// Computed on first use after a change.
     bounds: OnceLock<Option<Bounds<f64>>>,

@@ -8,6 +8,7 @@ use guideway_layout::{Layout, Level, UserError};
 use guideway_spline::{Affine, Point};
 
 use super::state::App;
+use crate::action::GroupRequest;
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::files::{Layer, NewLayout};
@@ -97,6 +98,18 @@ impl App {
         let offset_m = px_per_m.map_or(1.0, |px_per_m| DUPLICATE_OFFSET_PX / px_per_m);
         let paste = copied.paste_into(layer.path(), Point::new(offset_m, -offset_m));
         self.edit(paste);
+    }
+
+    /// Opens the dialog of a level or a vehicle type.
+    pub(super) fn show_group(&mut self, request: GroupRequest) {
+        self.tools.abort_drag();
+        match self.files.document() {
+            Some(document) => self.dialogs.group.ask(request, document),
+            None => self
+                .dialogs
+                .notices
+                .add(t("The file is busy; try again in a moment")),
+        }
     }
 
     /// Runs a command that arranges the selection, or asks for the number or name that it needs.

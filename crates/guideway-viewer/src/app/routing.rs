@@ -6,7 +6,7 @@ use guideway_spline::{Bounds, Point};
 
 use super::basics::{release_keyboard, tool_context};
 use super::state::App;
-use crate::action::Action;
+use crate::action::{Action, GroupRequest};
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
@@ -32,6 +32,7 @@ impl App {
         match action {
             Action::Command(command) => self.perform(command, ctx),
             Action::Edit(task) => self.edit(task),
+            Action::ShowGroup(request) => self.show_group(request),
             Action::SelectByQuery(mode) => self.select_by_query(mode),
             Action::Search => self.find.search(self.files.document(), repaint),
             Action::ZoomTo(element) => self.zoom_to(element),
@@ -138,6 +139,8 @@ impl App {
             Command::Cut => self.copy_elements(true, ctx),
             Command::Copy => self.copy_elements(false, ctx),
             Command::Paste => self.paste_elements(),
+            Command::NewLevel => self.show_group(GroupRequest::NewLevel),
+            Command::NewVehicleType => self.show_group(GroupRequest::NewVehicleType),
             Command::Array
             | Command::Rename
             | Command::MoveToLevel

@@ -27,7 +27,7 @@ pub(crate) const MENUS: [Menu; 7] = [
             &[Undo, Redo],
             &[Cut, Copy, Paste, Duplicate, Array, Delete],
             &[SelectAll, Deselect, Find],
-            &[Rename, MoveToLevel],
+            &[Rename, MoveToLevel, NewLevel, NewVehicleType],
             &[RotateLeft, FlipHorizontal, FlipVertical],
             &[Refine],
             &[Settings],

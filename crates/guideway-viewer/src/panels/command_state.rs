@@ -133,6 +133,8 @@ fn needs_file(command: Command) -> bool {
                 | Command::Undo
                 | Command::Redo
                 | Command::SelectAll
+                | Command::NewLevel
+                | Command::NewVehicleType
                 | Command::Find
                 | Command::NextFile
                 | Command::ShowAll

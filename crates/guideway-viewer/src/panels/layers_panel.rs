@@ -1,19 +1,17 @@
 //! The Layers tab: open files with their levels and kinds of elements, and the floor plan.
 
 use eframe::egui::collapsing_header::CollapsingState;
-use eframe::egui::{
-    Align, Button, Color32, Id, Label, Layout, RichText, Role, Slider, Ui, WidgetInfo,
-};
+use eframe::egui::{Align, Button, Color32, Id, Label, Layout, RichText, Slider, Ui};
 use guideway_document::Document;
 use guideway_layout::shown_path;
 use guideway_scene::{Rgba, Table};
 
+use super::group_list;
 use crate::action::Action;
 use crate::backdrop::FloorPlanLayer;
 use crate::display_settings::DisplaySettings;
-use crate::editing::EditTask;
 use crate::files::{Layer, LayerLook, OpenFiles};
-use crate::language::{counted, say, t};
+use crate::language::{counted, t};
 
 /// Shows the tab.
 pub(super) fn show(
@@ -124,45 +122,8 @@ impl LayerRow {
             ui.add(slider).on_hover_text(t("Opacity of the paths"));
             show_color(ui, look, settings);
         });
-        if let Some(document) = layer.document().filter(|d| d.layout().levels.len() > 1) {
-            self.show_levels(ui, document, actions);
-        }
-    }
-
-    /// Shows the levels, each with a switch; the one that is drawn on is marked.
-    fn show_levels(&self, ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
-        let mut change = |edit: EditTask| {
-            actions.push(Action::Activate(self.index));
-            actions.push(Action::Edit(edit));
-        };
-        let levels = levels(document);
-        let shows_all = levels.iter().all(|(l, _)| document.shows_level(Some(*l)));
-        let all = Button::selectable(shows_all, t("All levels")).truncate();
-        if ui.add(all).clicked() && !shows_all {
-            change(EditTask::view_change(|d: &mut Document| d.show_level(None)));
-        }
-        for (level, name) in levels {
-            ui.horizontal(|ui| {
-                let mut is_shown = document.shows_level(Some(level));
-                let hint = say!("Shows {name} beside other levels", name);
-                let switch = ui.checkbox(&mut is_shown, "").on_hover_text(&hint);
-                switch.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_shown, &hint));
-                if switch.changed() {
-                    change(EditTask::view_change(move |document: &mut Document| {
-                        document.set_level_shown(level, is_shown);
-                    }));
-                }
-                let is_drawn_on = document.level() == Some(level);
-                let button = Button::selectable(is_drawn_on, name).truncate();
-                let button = ui
-                    .add(button)
-                    .on_hover_text(t("Shows it alone, and draws on it"));
-                if button.clicked() {
-                    change(EditTask::view_change(move |document: &mut Document| {
-                        document.show_level(Some(level));
-                    }));
-                }
-            });
+        if let Some(document) = layer.document() {
+            group_list::show(ui, self.index, document, actions);
         }
     }
 }
@@ -232,13 +193,6 @@ fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
     if let Some(error) = floor_plan.error() {
         ui.colored_label(ui.visuals().error_fg_color, error);
     }
-}
-
-/// Row and name of every level.
-fn levels(document: &Document) -> Vec<(u32, String)> {
-    let levels = document.layout().levels.iter().zip(0..);
-    let levels = levels.map(|(level, row)| (row, level.name_or_id().to_owned()));
-    levels.collect()
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ mod display_panel;
 mod drawing_bar;
 mod find_panel;
 mod findings_panel;
+mod group_list;
 mod icons;
 mod layers_panel;
 mod menu_bar;

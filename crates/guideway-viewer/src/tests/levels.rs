@@ -14,7 +14,7 @@ use crate::panels::SideTab;
 const NONE: Modifiers = Modifiers::NONE;
 
 /// Two lanes on two levels: one along y = 0 in the hall, one along y = 2 upstairs.
-fn two_levels() -> Layout {
+pub(super) fn two_levels() -> Layout {
     let lanes = lanes(2);
     let level = |id: &str| Level {
         id: id.into(),

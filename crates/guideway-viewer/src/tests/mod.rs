@@ -11,6 +11,7 @@ mod files;
 mod findings;
 mod first_layout;
 mod floor_plans;
+mod groups;
 mod layers;
 mod levels;
 mod methods;

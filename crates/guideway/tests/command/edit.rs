@@ -133,6 +133,40 @@ fn references_follow_a_renamed_node_into_the_file() {
 }
 
 #[test]
+fn levels_and_vehicle_types_reach_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = r#"{"steps": [
+        {"do": "create-level", "id": "roof", "name": "Roof"},
+        {"do": "delete-level", "level": "mezzanine", "move_to": "roof"},
+        {"do": "change-level", "level": "hall", "id": "ground"},
+        {"do": "change-vehicle-type", "vehicle_type": "tugger-3000", "id": "tugger"},
+        {"do": "create-vehicle-type", "id": "crane", "properties": {"maxSpeed": 0.5}},
+        {"do": "delete-vehicle-type", "vehicle_type": "stacker-1200", "replace_by": "crane"}
+    ]}"#;
+    let done = edit(folder.path(), &site(), script, &["--json"]);
+    let report = json(&done, "edit");
+    assert_eq!(report["steps"][0]["names"][0], "roof");
+    assert_eq!(report["steps"][1]["paths"], 8);
+    let text = std::fs::read_to_string(out(folder.path())).unwrap();
+    for gone in ["mezzanine\"", "\"hall\"", "tugger-3000", "stacker-1200"] {
+        assert!(!text.contains(gone), "{gone}");
+    }
+    let [before, after] = [site(), out(folder.path())].map(|path| guideway::open(path).unwrap());
+    let levels: Vec<&str> = after.levels.iter().map(|level| level.id.as_str()).collect();
+    assert_eq!(levels, ["ground", "roof"]);
+    let names: Vec<&str> = after.vehicle_type_names().into_iter().collect();
+    assert_eq!(names, ["crane", "tugger"]);
+    let on = |layout: &guideway::layout::Layout, level: u32| {
+        let paths = layout.paths.iter();
+        paths.filter(|path| path.level() == Some(level)).count()
+    };
+    assert_eq!(
+        [on(&after, 0), on(&after, 1)],
+        [on(&before, 0), on(&before, 1)]
+    );
+}
+
+#[test]
 fn a_failing_step_writes_nothing_and_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let fine = r#"{"do": "two-way", "paths": "all"}"#;
@@ -161,6 +195,26 @@ fn a_failing_step_writes_nothing_and_is_named() {
         (
             r#"{"do": "set-level", "paths": "all", "level": "attic"}"#,
             "step 7 (`set-level`), member `level`: no level is called `attic`",
+        ),
+        (
+            r#"{"do": "delete-level", "level": "mezzanine"}"#,
+            "step 7 (`delete-level`): the level `mezzanine` has",
+        ),
+        (
+            r#"{"do": "delete-level", "level": "hall", "move_to": null, "with_elements": true}"#,
+            "member `move_to`: `move_to` and `with_elements` exclude each other",
+        ),
+        (
+            r#"{"do": "change-level", "level": "mezzanine", "id": "hall"}"#,
+            "step 7 (`change-level`): another level is called `hall`",
+        ),
+        (
+            r#"{"do": "delete-vehicle-type", "vehicle_type": "hovercraft"}"#,
+            "no vehicle type is called `hovercraft`",
+        ),
+        (
+            r#"{"do": "create-vehicle-type", "id": "crane", "properties": {"maxSpeed": "fast"}}"#,
+            "`maxSpeed` takes a number in m/s, not `fast`",
         ),
         (
             r#"{"do": "paste", "from": "none.lif.json", "paths": "all"}"#,

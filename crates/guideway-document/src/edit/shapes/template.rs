@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Direction, Quantity, Value};
+use guideway_layout::{Attribute, Direction, ElementKind, Quantity, Value};
 use guideway_scene::{Table, TableEdit};
 
 use super::error::ShapeError;
@@ -77,7 +77,7 @@ impl Document {
         for (vehicle_type, speed) in wanted {
             let Some(speed) = speed else { continue };
             let value = Some(Value::Float(speed));
-            let (value, quantity) = accepted(Table::Paths, MAX_SPEED, known, value)?;
+            let (value, quantity) = accepted(ElementKind::Path, MAX_SPEED, known, value)?;
             let edit = TableEdit::SetValues {
                 of: Table::Paths,
                 vehicle_type,

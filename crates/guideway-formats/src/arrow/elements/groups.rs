@@ -33,6 +33,7 @@ pub(super) fn levels(
             name: rows.text(Role::LevelName, row).map(str::to_owned),
             elevation_m: rows.number(Role::Elevation, row),
             attributes: rows.attributes_of(row, faults.diagnostics)?,
+            source: None,
         })
     };
     (0..rows.len()).map(level).collect()

@@ -1,9 +1,11 @@
 //! Changes of a layout since it was read: finds the rows that differ from their objects, and
 //! splices the differences.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use super::compare::{pair, same_types, same_values};
+use guideway_layout::Layout;
+
+use super::compare::{LevelPairs, pair, same_types, same_values};
 use super::entries::{self, Types};
 use super::state::State;
 use crate::Losses;
@@ -20,7 +22,10 @@ pub(super) struct Changes<'s, 't> {
     pub(super) edges: &'s Edges<'s>,
     pub(super) version: Version,
     pub(super) splices: Splices<'t>,
-    /// Objects to remove and to add, per level: nodes, edges, stations.
+    pub(super) levels: LevelPairs,
+    /// Vehicle types of the file that no path and no node names any more.
+    gone_types: HashSet<&'s str>,
+    /// Objects to remove and to add, per level as it is: nodes, edges, stations.
     pub(super) arrays: Vec<[ArrayChanges<'s>; 3]>,
     /// Vehicle types that nodes need for new or changed paths.
     pub(super) needed_types: HashMap<u32, Vec<&'s str>>,
@@ -67,6 +72,8 @@ impl<'s, 't> Changes<'s, 't> {
             edges,
             version,
             splices,
+            levels: LevelPairs::of(old.layout, new.layout),
+            gone_types: gone_types(old.layout, new.layout),
             arrays: new
                 .layout
                 .levels
@@ -105,8 +112,11 @@ impl<'s, 't> Changes<'s, 't> {
     }
 
     pub(super) fn remove(&mut self, level: Option<u32>, kind: Kind, start: usize) {
-        let level = level.unwrap_or(0) as usize;
-        self.arrays[level][kind as usize].removed.push(start);
+        // An object of a removed level goes with it.
+        if let Some(level) = self.levels.after(level.unwrap_or(0)) {
+            let arrays = &mut self.arrays[level as usize];
+            arrays[kind as usize].removed.push(start);
+        }
     }
 
     pub(super) fn add(&mut self, level: Option<u32>, kind: Kind, object: Tree<'s>) {
@@ -137,10 +147,11 @@ impl<'s, 't> Changes<'s, 't> {
                     new.elements.whole_node(copy),
                 );
             }
-            if of_new.level(b) != level {
+            if self.levels.is_moved(level, of_new.level(b)) {
                 self.remove(level, Kind::Nodes, object.start);
                 self.add(of_new.level(b), Kind::Nodes, new.elements.whole_node(b));
-            } else if differs((a, b)) || self.needed_types.contains_key(&b) {
+            } else if differs((a, b)) || self.needed_types.contains_key(&b) || self.has_gone_type(a)
+            {
                 self.change_node(object.start, a, b);
             }
         }
@@ -162,6 +173,12 @@ impl<'s, 't> Changes<'s, 't> {
         }
     }
 
+    /// Returns whether paths of the file give a node a type that is gone.
+    fn has_gone_type(&self, a: u32) -> bool {
+        let mut types = self.old.network.types_of_node(a).iter();
+        !self.gone_types.is_empty() && types.any(|name| self.gone_types.contains(name))
+    }
+
     fn change_node(&mut self, start: usize, a: u32, b: u32) {
         let (old, new) = (&self.old.elements, &self.new.elements);
         self.splices.change(start, &old.node(a), &new.node(b));
@@ -174,9 +191,11 @@ impl<'s, 't> Changes<'s, 't> {
         let of_new = own(self.new.layout.nodes.vehicle_types(), b);
         let mut of_old: Vec<(&str, Option<usize>)> = of_old.collect();
         let mut of_new: Vec<(&str, Option<usize>)> = of_new.collect();
-        for types in [&mut of_old, &mut of_new] {
-            add_missing(types, self.old.network.types_of_node(a));
-        }
+        let of_paths = self.old.network.types_of_node(a);
+        add_missing(&mut of_old, of_paths);
+        let is_left = |name: &&&str| !self.gone_types.contains(**name);
+        let left: Vec<&str> = of_paths.iter().filter(is_left).copied().collect();
+        add_missing(&mut of_new, &left);
         let needed = self.needed_types.get(&b);
         add_missing(&mut of_new, needed.map_or(&[], Vec::as_slice));
         let of_old: Types<'s> = of_old
@@ -215,7 +234,7 @@ impl<'s, 't> Changes<'s, 't> {
                     new.elements.station(copy),
                 );
             }
-            if of_new.level(b) != level {
+            if self.levels.is_moved(level, of_new.level(b)) {
                 self.remove(level, Kind::Stations, object.start);
                 self.add(of_new.level(b), Kind::Stations, new.elements.station(b));
                 continue;
@@ -242,4 +261,15 @@ impl<'s, 't> Changes<'s, 't> {
         state.elements.merge_other(&mut root, attributes, 0, OTHER);
         root
     }
+}
+
+/// The vehicle types that paths or nodes of the first layout name, and none of the second.
+fn gone_types<'s>(old: &'s Layout, new: &Layout) -> HashSet<&'s str> {
+    let names = |layout: &'s Layout| {
+        let (paths, nodes) = (layout.paths.vehicle_types(), layout.nodes.vehicle_types());
+        paths.names().iter().chain(nodes.names())
+    };
+    let left = new.vehicle_type_names();
+    let gone = names(old).map(String::as_str);
+    gone.filter(|name| !left.contains(name)).collect()
 }

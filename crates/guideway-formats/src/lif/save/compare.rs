@@ -1,6 +1,55 @@
 //! Comparison of rows: tells whether an element is as its file has it.
 
-use guideway_layout::{Attributes, Layout, SourceSpans, TypeEntries, Value};
+use guideway_layout::{Attributes, Layout, Level, SourceSpans, TypeEntries, Value};
+
+/// The levels of a layout as the file has it, and as it is, that are the same object of the file.
+pub(super) struct LevelPairs {
+    after: Vec<Option<u32>>,
+    before: Vec<Option<u32>>,
+}
+
+impl LevelPairs {
+    /// Pairs the levels by their objects, else by their identifiers.
+    pub(super) fn of(old: &Layout, new: &Layout) -> Self {
+        let mut pairs = Self {
+            after: vec![None; old.levels.len()],
+            before: vec![None; new.levels.len()],
+        };
+        pairs.pair(old, new, |a, b| a.source.is_some() && a.source == b.source);
+        pairs.pair(old, new, |a, b| a.id == b.id);
+        pairs
+    }
+
+    fn pair(&mut self, old: &Layout, new: &Layout, is_same: impl Fn(&Level, &Level) -> bool) {
+        for (b, level) in new.levels.iter().enumerate() {
+            let is_free = |a: &usize| self.after[*a].is_none();
+            let mut free = (0..old.levels.len()).filter(is_free);
+            let found = free.find(|&a| is_same(&old.levels[a], level));
+            if let (None, Some(a)) = (self.before[b], found) {
+                self.before[b] = Some(a as u32);
+                self.after[a] = Some(b as u32);
+            }
+        }
+    }
+
+    /// The row now of a level of the file; `None` if it was removed.
+    pub(super) fn after(&self, level: u32) -> Option<u32> {
+        self.after.get(level as usize).copied().flatten()
+    }
+
+    /// Returns whether a level is not in the file.
+    pub(super) fn is_new(&self, level: u32) -> bool {
+        self.before[level as usize].is_none()
+    }
+
+    /// Returns whether an element is on another level than in the file.
+    pub(super) fn is_moved(&self, before: Option<u32>, now: Option<u32>) -> bool {
+        match before {
+            Some(level) => self.after(level).is_none_or(|level| now != Some(level)),
+            None => now.is_some(),
+        }
+    }
+}
 
 /// Rows of a table with the same object of the file.
 pub(super) struct SameObject {

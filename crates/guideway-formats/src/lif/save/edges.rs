@@ -56,7 +56,7 @@ impl<'s> Changes<'s, '_> {
             let level = |state: &State<'_>, path| level_of(state.layout, path);
             is_id_same
                 && (ids(old, row_a) == ids(new, row_b))
-                && level(old, path_a) == level(new, path_b)
+                && !self.levels.is_moved(level(old, path_a), level(new, path_b))
                 && same_curve(old.layout, row_a, new.layout, row_b)
                 && same_values(&of_old.attributes, row_a, &of_new.attributes, row_b)
                 && same_types(of_old.vehicle_types(), row_a, of_new.vehicle_types(), row_b)
@@ -89,7 +89,7 @@ impl<'s> Changes<'s, '_> {
             others: &[],
             is_reverse: false,
         };
-        if level != old_level {
+        if self.levels.is_moved(old_level, level) {
             self.remove(old_level, Kind::Edges, object.start);
             parts.into_iter().for_each(|&row| self.add_edge(row));
             return;

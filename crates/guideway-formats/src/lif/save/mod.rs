@@ -29,12 +29,12 @@ use self::state::State;
 use super::members::ALIASES;
 use super::read::read_again;
 use super::version::Version;
-use super::write::{Edges, Network, add_lost};
+use super::write::{Edges, Network, add_between_levels, add_lost};
 use crate::Losses;
 use crate::json::Splices;
 
 /// Saves a layout into the text of its file. Returns the losses; `None`, and nothing is written, if
-/// there is no text, or the layout has other levels.
+/// there is no text, or it has no place for a change.
 ///
 /// # Errors
 /// When `out` fails.
@@ -52,7 +52,7 @@ pub(super) fn save(
     };
     let is_empty = layout.levels.is_empty()
         && layout.paths.len() + layout.nodes.len() + layout.stations.len() > 0;
-    if original.levels.len() != layout.levels.len() || is_empty {
+    if is_empty {
         return Ok(None);
     }
     let refused = layout.refused.len().saturating_sub(original.refused.len());
@@ -65,6 +65,7 @@ pub(super) fn save(
     let old = State::new(&original, &old_network, version);
     let new = State::new(layout, &new_network, version);
     add_lost(&new.elements, &mut losses);
+    add_between_levels(&new.elements, &mut losses);
     let edges = Edges::collect(layout, &mut losses);
     let mut changes = Changes::new(&old, &new, &edges, version, Splices::new(text, ALIASES));
     changes.collect_edges();
@@ -72,10 +73,10 @@ pub(super) fn save(
     changes.collect_stations();
     changes.add_losses(&mut losses);
     if changes.needs_places() {
-        let Some(places) = Places::find(text, layout.levels.len()) else {
+        let places = Places::find(text, original.levels.len());
+        if !places.is_some_and(|places| changes.change_levels(&places)) {
             return Ok(None);
-        };
-        changes.change_levels(&places);
+        }
     }
     changes.into_splices().write(out)?;
     Ok(Some(losses))

@@ -1,5 +1,7 @@
 //! Places of the layouts and origins of a LIF file in its text.
 
+use std::ops::Range;
+
 use crate::json::{items_at, member};
 
 /// Places of objects, by their first bytes.
@@ -7,8 +9,16 @@ pub(super) struct Places {
     pub(super) root: usize,
     /// One per level.
     pub(super) levels: Vec<usize>,
-    /// The origins of 2.0, each with the index of its first level.
-    pub(super) origins: Vec<(usize, usize)>,
+    /// The objects with an array of levels.
+    pub(super) owners: Vec<Owner>,
+}
+
+/// The root of 1.0, or an origin of 2.0.
+pub(super) struct Owner {
+    pub(super) at: usize,
+    /// Its levels.
+    pub(super) levels: Range<usize>,
+    pub(super) is_origin: bool,
 }
 
 impl Places {
@@ -17,25 +27,28 @@ impl Places {
         let mut places = Self {
             root: text.find('{')?,
             levels: Vec::new(),
-            origins: Vec::new(),
+            owners: Vec::new(),
         };
-        places.add_layouts(text, places.root);
+        places.add_owner(text, places.root, false);
         if let Some(origins) = member(text, places.root, "origins") {
             for origin in objects(text, origins.start) {
-                let first = places.levels.len();
-                places.add_layouts(text, origin);
-                if places.levels.len() > first {
-                    places.origins.push((origin, first));
-                }
+                places.add_owner(text, origin, true);
             }
         }
         (places.levels.len() == levels).then_some(places)
     }
 
-    fn add_layouts(&mut self, text: &str, at: usize) {
-        if let Some(layouts) = member(text, at, "layouts") {
-            self.levels.extend(objects(text, layouts.start));
-        }
+    fn add_owner(&mut self, text: &str, at: usize, is_origin: bool) {
+        let Some(layouts) = member(text, at, "layouts") else {
+            return;
+        };
+        let first = self.levels.len();
+        self.levels.extend(objects(text, layouts.start));
+        self.owners.push(Owner {
+            at,
+            levels: first..self.levels.len(),
+            is_origin,
+        });
     }
 }
 

@@ -85,11 +85,6 @@ impl<'a> Elements<'a> {
         if is_known {
             self.node.add_to(&mut members, node as usize, None);
         }
-        if members.iter().all(|(name, _)| name != "mapId") {
-            let level = self.network.level_of_node(node);
-            let map = self.network.levels().nth(level);
-            members.extend(map.map(|level| text("mapId", level.id.as_str())));
-        }
         let position = point(self.network.position_m(node));
         members.push(("nodePosition".into(), Tree::Object(position)));
         let mut tree = Tree::Object(members);
@@ -102,6 +97,20 @@ impl<'a> Elements<'a> {
             );
         }
         tree
+    }
+
+    /// Adds the level of a node as its map, before its position, if it states no map.
+    fn add_map(&self, tree: &mut Tree<'a>, node: u32) {
+        let level = self.network.level_of_node(node);
+        let level = self.network.levels().nth(level);
+        let (Tree::Object(members), Some(level)) = (tree, level) else {
+            return;
+        };
+        if members.iter().all(|(name, _)| name != "mapId") {
+            let mut names = members.iter().map(|(name, _)| name);
+            let at = names.position(|name| name == "nodePosition").unwrap_or(0);
+            members.insert(at, text("mapId", level.id.as_str()));
+        }
     }
 
     /// The vehicle types of a node, with the entry of each that has one: those of the node, then
@@ -137,6 +146,7 @@ impl<'a> Elements<'a> {
     /// A node as a whole.
     pub(in crate::lif) fn whole_node(&self, node: u32) -> Tree<'a> {
         let mut tree = self.node(node);
+        self.add_map(&mut tree, node);
         let types = self.node_types(node).into_iter();
         let types = types.map(|(name, entry)| (name, self.node_type(node, entry)));
         let entries = self.entries(types.collect());

@@ -4,10 +4,11 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use guideway_layout::{Attributes, Direction, Layout};
+use guideway_layout::{Attributes, Direction, Layout, VehicleType};
 
 use super::columns::MemberColumns;
 use super::elements::Elements;
+use super::network::Network;
 use crate::Losses;
 use crate::json::Tree;
 use crate::lif::members::{EDGE_ID, LAYOUT, META, ORIGIN, ORIGIN_OTHER, OTHER, TYPE_OTHER};
@@ -37,6 +38,14 @@ pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
         "vehicle types",
         lost.count(),
         "vehicle types with properties of their own",
+    );
+
+    let named = names_of_elements(layout);
+    let is_unused = |t: &&VehicleType| !named.contains(t.id.as_str());
+    losses.add(
+        "vehicle types",
+        layout.vehicle_types.iter().filter(is_unused).count(),
+        "vehicle types that no path and no node names",
     );
 
     let further: &[&str] = if elements.is_from_lif {
@@ -119,6 +128,14 @@ pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
     );
 }
 
+/// The vehicle types that paths and nodes name.
+fn names_of_elements(layout: &Layout) -> BTreeSet<&str> {
+    let (paths, nodes) = (layout.paths.vehicle_types(), layout.nodes.vehicle_types());
+    let of_paths = (0..paths.len()).flat_map(|row| paths.of(row));
+    let of_nodes = (0..nodes.len()).flat_map(|row| nodes.of(row));
+    of_paths.chain(of_nodes).collect()
+}
+
 /// Columns of a table; `of` names its rows.
 #[derive(Clone, Copy)]
 struct Table<'a> {
@@ -184,13 +201,22 @@ pub(in crate::lif) fn add_required(elements: &Elements<'_>, losses: &mut Losses)
     losses.add("vehicle types", grown, detail);
     let detail = "nodes: types without properties are read as those of their paths";
     losses.add("vehicle types", implied, detail);
-    losses.add(
-        "vehicle types",
-        count_ends_between_levels(elements),
-        "nodes of paths between levels: written with entries for the types of these paths",
-    );
+    add_ends_between_levels(elements, losses);
     let detail = "time of the export and version of the format: those of the new file";
     losses.add("layout properties", count_new_meta(elements), detail);
+}
+
+/// Adds what a save loses by paths between levels, which the file did not draw before.
+pub(in crate::lif) fn add_between_levels(elements: &Elements<'_>, losses: &mut Losses) {
+    let paths = 0..elements.layout.paths.len();
+    let between = paths.filter(|&path| elements.network.is_between_levels(path));
+    Network::add_between_levels(between.count(), losses);
+    add_ends_between_levels(elements, losses);
+}
+
+fn add_ends_between_levels(elements: &Elements<'_>, losses: &mut Losses) {
+    let detail = "nodes of paths between levels: written with entries for the types of these paths";
+    losses.add("vehicle types", count_ends_between_levels(elements), detail);
 }
 
 /// Counts the nodes with entries of their own that get more, and those whose entries a reader takes

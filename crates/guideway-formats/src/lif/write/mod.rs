@@ -29,7 +29,7 @@ use crate::finite::check_finite;
 
 pub(super) use self::edges::{EdgeGroups, EdgeRef, Edges};
 pub(super) use self::elements::{Elements, add_missing};
-pub(super) use self::losses::{add_lost, add_required};
+pub(super) use self::losses::{add_between_levels, add_lost, add_required};
 pub(super) use self::network::{Network, level_of, path_types};
 pub use self::options::WriteOptions;
 

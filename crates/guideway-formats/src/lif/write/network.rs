@@ -145,12 +145,17 @@ impl<'a> Network<'a> {
             new_nodes,
             "new nodes: written at path ends without a node",
         );
-        let detail = "paths between levels: readers treat them as lifts and do not draw them";
-        losses.add("paths", between_levels, detail);
-        let detail = "paths between levels: readers refuse to draw them";
-        losses.add("refused paths", between_levels, detail);
+        Self::add_between_levels(between_levels, losses);
         let detail = format!("paths for all vehicle types: written for the type `{ANY_TYPE}`");
         losses.add("vehicle types", for_any, detail);
+    }
+
+    /// Adds the loss of paths between levels.
+    pub(super) fn add_between_levels(count: usize, losses: &mut Losses) {
+        let detail = "paths between levels: readers treat them as lifts and do not draw them";
+        losses.add("paths", count, detail);
+        let detail = "paths between levels: readers refuse to draw them";
+        losses.add("refused paths", count, detail);
     }
 
     pub(in crate::lif) fn levels(&self) -> impl Iterator<Item = &Level> {

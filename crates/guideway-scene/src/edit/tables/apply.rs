@@ -16,11 +16,21 @@ impl Scene {
             self.set_exists(*of, rows);
             return;
         }
+        self.level = self.level.and_then(|level| edit.level_after(level));
         edit.apply(Arc::make_mut(&mut self.layout));
     }
 }
 
 impl TableEdit {
+    /// The row of a level after the edit; `None` if the edit removes it.
+    pub fn level_after(&self, level: u32) -> Option<u32> {
+        match *self {
+            Self::InsertLevel { row, .. } => Some(level + u32::from(level >= row)),
+            Self::RemoveLevel(row) => (level != row).then(|| level - u32::from(level > row)),
+            _ => Some(level),
+        }
+    }
+
     fn apply(&self, layout: &mut Layout) {
         match self {
             Self::SetIds { of, ids } => set_ids(*of, layout, ids),
@@ -67,13 +77,8 @@ impl TableEdit {
                 }
             }
             Self::SetLevels { of, levels } => {
-                for &(row, level) in levels.iter() {
-                    match of {
-                        Table::Paths => layout.paths.set_level(row as usize, level),
-                        Table::Nodes => layout.nodes.set_level(row, level),
-                        Table::Stations => layout.stations.set_level(row, level),
-                    }
-                }
+                let levels = levels.iter();
+                levels.for_each(|&(row, level)| of.set_level(layout, row, level));
             }
             Self::SetStationNodes(stations) => {
                 for (station, nodes) in stations.iter() {
@@ -101,6 +106,27 @@ impl TableEdit {
                     .for_each(|station| station.push(&mut layout.stations));
             }
             Self::SetExists { .. } => {}
+            Self::SetZoneLevels(levels) => {
+                for &(zone, level) in levels.iter() {
+                    layout.zones[zone as usize].level = level;
+                }
+            }
+            Self::InsertLevel {
+                row,
+                level,
+                elements,
+            } => {
+                layout.insert_level(*row, (**level).clone());
+                for (of, rows) in Table::ALL.into_iter().zip(&**elements) {
+                    rows.iter()
+                        .for_each(|&of_table| of.set_level(layout, of_table, Some(*row)));
+                }
+            }
+            Self::RemoveLevel(row) => drop(layout.remove_level(*row)),
+            Self::SetLevel { row, level } => {
+                layout.levels[*row as usize].clone_from(level);
+            }
+            Self::SetVehicleTypes(types) => layout.vehicle_types = types.to_vec(),
         }
     }
 }

@@ -1,16 +1,18 @@
 //! Checks an edit of tables before it is applied, so that a rejected edit changes nothing.
 
-use guideway_layout::{Layout, Member, TypeEntries, Value, Values};
+use guideway_layout::{Attributes, Layout, Level, Member, TypeEntries, Value, Values};
 use guideway_spline::Point;
 
 use super::operation::{NewNode, NewStation, TableEdit};
 use crate::edit::check::MAX_COORDINATE_M;
 use crate::edit::error::EditError;
+use crate::scene::Scene;
 use crate::table::Table;
 
 impl TableEdit {
     /// Accepts the edit or returns the reason for rejecting it.
-    pub(in crate::edit) fn check(&self, layout: &Layout) -> Result<(), EditError> {
+    pub(in crate::edit) fn check(&self, scene: &Scene) -> Result<(), EditError> {
+        let layout = scene.layout();
         match self {
             Self::SetIds { of, ids } => check_rows(*of, layout, ids.iter().map(|(row, _)| *row)),
             Self::SetValues {
@@ -100,6 +102,39 @@ impl TableEdit {
             Self::SetExists { of, rows } => {
                 check_rows(*of, layout, rows.iter().map(|(row, _)| *row))
             }
+            Self::SetZoneLevels(levels) => {
+                let rows = levels.iter().map(|(row, _)| *row);
+                check_below("zone", layout.zones.len(), rows)?;
+                check_levels(layout, levels.iter().filter_map(|(_, level)| *level))
+            }
+            Self::InsertLevel {
+                row,
+                level,
+                elements,
+            } => {
+                check_below("level", layout.levels.len() + 1, [*row])?;
+                for (of, rows) in Table::ALL.into_iter().zip(&**elements) {
+                    check_rows(of, layout, rows.iter().copied())?;
+                }
+                check_level(level)
+            }
+            Self::RemoveLevel(row) => {
+                check_levels(layout, [*row])?;
+                let is_used = |of: Table| of.on_level(layout, *row).any(|e| scene.exists(of, e));
+                let mut zones = layout.zones.iter();
+                let has_zone = zones.any(|zone| zone.level == Some(*row));
+                match has_zone || Table::ALL.into_iter().any(is_used) {
+                    true => Err(EditError::LevelInUse { row: *row }),
+                    false => Ok(()),
+                }
+            }
+            Self::SetLevel { row, level } => {
+                check_levels(layout, [*row])?;
+                check_level(level)
+            }
+            Self::SetVehicleTypes(types) => types
+                .iter()
+                .try_for_each(|of_type| check_row(&of_type.attributes)),
         }
     }
 }
@@ -131,6 +166,17 @@ fn check_rows(
 
 fn check_levels(layout: &Layout, levels: impl IntoIterator<Item = u32>) -> Result<(), EditError> {
     check_below("level", layout.levels.len(), levels)
+}
+
+fn check_level(level: &Level) -> Result<(), EditError> {
+    let height_m = level.elevation_m.map(Value::Float);
+    check_finite("elevation", &Values::from_iter([height_m]))?;
+    check_row(&level.attributes)
+}
+
+fn check_row(attributes: &Attributes) -> Result<(), EditError> {
+    let mut columns = attributes.iter();
+    columns.try_for_each(|column| check_finite(&column.name, &column.values))
 }
 
 fn check_below(

@@ -84,6 +84,23 @@ impl TableEdit {
                     rows: old.collect(),
                 }
             }
+            Self::SetZoneLevels(levels) => {
+                let old = |row: u32| layout.zones[row as usize].level;
+                Self::SetZoneLevels(levels.iter().map(|&(row, _)| (row, old(row))).collect())
+            }
+            Self::InsertLevel { row, .. } => Self::RemoveLevel(*row),
+            Self::RemoveLevel(row) => Self::InsertLevel {
+                row: *row,
+                level: Arc::new(layout.levels[*row as usize].clone()),
+                elements: Arc::new(Table::ALL.map(|of| of.on_level(layout, *row).collect())),
+            },
+            Self::SetLevel { row, .. } => Self::SetLevel {
+                row: *row,
+                level: Arc::new(layout.levels[*row as usize].clone()),
+            },
+            Self::SetVehicleTypes(_) => {
+                Self::SetVehicleTypes(layout.vehicle_types.as_slice().into())
+            }
         }
     }
 

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Direction, Member, Quantity, TypeEntries, Values};
+use guideway_layout::{
+    Attribute, Direction, Level, Member, Quantity, TypeEntries, Values, VehicleType,
+};
 use guideway_spline::Point;
 
 use crate::table::Table;
@@ -84,6 +86,30 @@ pub enum TableEdit {
         /// Rows, each with `false` to remove it.
         rows: Arc<[(u32, bool)]>,
     },
+    /// Sets the levels of zones.
+    SetZoneLevels(Arc<[(u32, Option<u32>)]>),
+    /// Inserts a level. The rows of the levels from `row` on grow by one, also where elements
+    /// refer to them. Cost: O(all elements).
+    InsertLevel {
+        /// Its row.
+        row: u32,
+        /// The level.
+        level: Arc<Level>,
+        /// Rows of the paths, nodes and stations that come onto it.
+        elements: Arc<[Vec<u32>; 3]>,
+    },
+    /// Removes a level on which no element exists; removed elements of it are on no level then. The
+    /// rows of the levels after it shrink by one. Cost: O(all elements).
+    RemoveLevel(u32),
+    /// Replaces the names, the height and the properties of a level.
+    SetLevel {
+        /// Its row.
+        row: u32,
+        /// The level as it becomes.
+        level: Arc<Level>,
+    },
+    /// Replaces the table of vehicle types with their properties.
+    SetVehicleTypes(Arc<[VehicleType]>),
 }
 
 /// A node to insert.
@@ -152,6 +178,26 @@ impl TableEdit {
                 size_of_val(&**stations) + stations.iter().map(own).sum::<usize>()
             }
             Self::SetExists { rows, .. } => size_of_val(&**rows),
+            Self::SetZoneLevels(levels) => size_of_val(&**levels),
+            Self::InsertLevel {
+                level, elements, ..
+            } => {
+                level_bytes(level)
+                    + elements
+                        .iter()
+                        .map(|rows| size_of_val(&**rows))
+                        .sum::<usize>()
+            }
+            Self::SetLevel { level, .. } => level_bytes(level),
+            Self::RemoveLevel(_) => 0,
+            Self::SetVehicleTypes(types) => {
+                let own = |t: &VehicleType| t.id.capacity() + t.attributes.heap_bytes();
+                size_of_val(&**types) + types.iter().map(own).sum::<usize>()
+            }
         }
     }
+}
+
+fn level_bytes(level: &Level) -> usize {
+    level.id.capacity() + level.attributes.heap_bytes()
 }

@@ -4,6 +4,8 @@ mod about_dialog;
 mod confirm_dialog;
 mod file_picker;
 pub(crate) mod floor_plan_window;
+mod group_deletion;
+mod group_dialog;
 mod leave_dialog;
 mod loss_dialog;
 mod notices;
@@ -21,6 +23,7 @@ use eframe::egui::{Context, Rect};
 pub(crate) use about_dialog::AboutDialog;
 pub(crate) use confirm_dialog::{ConfirmDialog, Question, Risk};
 pub(crate) use file_picker::FilePicker;
+pub(crate) use group_dialog::GroupDialog;
 pub(crate) use leave_dialog::LeaveDialog;
 pub(crate) use loss_dialog::LossDialog;
 pub(crate) use notices::Notices;
@@ -41,6 +44,7 @@ pub(crate) struct Dialogs {
     pub(crate) picker: FilePicker,
     pub(crate) losses: LossDialog,
     pub(crate) text: TextDialog,
+    pub(crate) group: GroupDialog,
     pub(crate) recent: RecentDialog,
     pub(crate) leave: LeaveDialog,
     pub(crate) confirm: ConfirmDialog,
@@ -62,6 +66,7 @@ impl Dialogs {
         let is_open = self.prompt.is_open()
             || self.losses.is_open()
             || self.text.is_open()
+            || self.group.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -71,6 +76,7 @@ impl Dialogs {
         self.prompt.close();
         self.losses.close();
         self.text.close();
+        self.group.close();
         self.recent.close();
         self.leave.close();
         self.confirm.close();
@@ -86,6 +92,7 @@ impl Dialogs {
             || self.picker.is_open()
             || self.losses.is_open()
             || self.text.is_open()
+            || self.group.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -105,6 +112,7 @@ impl Dialogs {
         actions.extend(self.picker.show(ctx).map(Action::Picked));
         actions.extend(self.losses.show(ctx));
         actions.extend(self.text.show(ctx));
+        actions.extend(self.group.show(ctx));
         actions.extend(self.recent.show(ctx));
         actions.extend(self.leave.show(ctx, files));
         actions.extend(self.confirm.show(ctx));

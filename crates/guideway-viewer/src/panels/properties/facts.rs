@@ -38,8 +38,8 @@ impl Facts {
             let entries = of.entries(layout)?;
             Some(types_of(entries, &[row as usize]))
         };
-        let mut all_types: Vec<String> = layout.paths.vehicle_types().names().to_vec();
-        all_types.sort_unstable();
+        let all_types = layout.vehicle_type_names().into_iter();
+        let all_types = all_types.map(str::to_owned).collect();
         Self {
             name: only.map(|row| of.id(layout, row).to_owned()),
             ends: only.filter(|_| is_path).map(|row| {

@@ -85,6 +85,15 @@ impl Touched {
         }
     }
 
+    /// A level or a vehicle type, and the elements that went with it.
+    pub(super) fn group(name: &str, elements: Elements) -> Self {
+        Self {
+            names: vec![name.to_owned()],
+            lost: BTreeMap::new(),
+            elements,
+        }
+    }
+
     /// The same with values that went with their elements.
     pub(super) fn with_lost(self, lost: BTreeMap<String, usize>) -> Self {
         Self { lost, ..self }

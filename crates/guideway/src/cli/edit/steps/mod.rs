@@ -3,6 +3,7 @@
 mod copies;
 mod create;
 mod delete;
+mod groups;
 mod moves;
 mod paths;
 mod properties;
@@ -26,6 +27,12 @@ pub(super) const STEPS: &[&StepKind] = &[
     &create::SPLINE,
     &create::STATION,
     &delete::DELETE,
+    &groups::CREATE_LEVEL,
+    &groups::CHANGE_LEVEL,
+    &groups::DELETE_LEVEL,
+    &groups::CREATE_TYPE,
+    &groups::CHANGE_TYPE,
+    &groups::DELETE_TYPE,
     &moves::MOVE,
     &moves::TURN,
     &moves::MIRROR,

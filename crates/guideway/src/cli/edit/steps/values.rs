@@ -1,7 +1,7 @@
 //! Values of properties in a script: degrees become radians, lists become JSON texts.
 
 use guideway::document::Document;
-use guideway::layout::{Property, Quantity, Value};
+use guideway::layout::{Attributes, Property, Quantity, Value};
 use guideway::scene::Table;
 use serde_json::Value as Json;
 
@@ -25,6 +25,17 @@ impl Given {
         let column = columns.get(property).or_else(|| entries?.get(property));
         let own = column.and_then(|column| column.quantity);
         let quantity = own.or_else(|| Property::named(property)?.quantity());
+        Self::in_unit(json, quantity)
+    }
+
+    /// The value of a property in a table of one row, such as that of a level.
+    pub(super) fn of_row(json: &Json, property: &str, attributes: &Attributes) -> Self {
+        let own = attributes.get(property).and_then(|column| column.quantity);
+        let quantity = own.or_else(|| Property::named(property)?.quantity());
+        Self::in_unit(json, quantity)
+    }
+
+    fn in_unit(json: &Json, quantity: Option<Quantity>) -> Self {
         let is_angle = matches!(quantity, Some(Quantity::Angle | Quantity::RotationSpeed));
         match json {
             Json::Null => Self::Removed,

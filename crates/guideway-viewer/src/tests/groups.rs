@@ -1,0 +1,155 @@
+//! Levels and vehicle types are created, renamed and deleted, by mouse and keys.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::{By, Queryable};
+
+use super::levels::two_levels;
+use super::services::lanes;
+use super::test_window::{TestWindow, has_notice};
+use crate::command::Command;
+use crate::panels::SideTab;
+
+const NONE: Modifiers = Modifiers::NONE;
+
+/// The Layers tab of a window.
+fn layers(mut window: TestWindow) -> TestWindow {
+    window.app().side.open(SideTab::Layers);
+    window.harness.run_steps(3);
+    window
+}
+
+fn click(window: &mut TestWindow, label: &str) {
+    window.harness.get_by_label(label).click();
+    window.harness.run_steps(3);
+}
+
+/// Types into a field of the dialog, in place of its text.
+fn fill(window: &mut TestWindow, label: &str, text: &str) {
+    let field = By::new().role(Role::TextInput).label(label);
+    window.harness.get(field).focus();
+    window.harness.run_steps(2);
+    window.key(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text(text.into()));
+    window.harness.run_steps(2);
+}
+
+fn levels(window: &mut TestWindow) -> Vec<String> {
+    let layout = window.document().layout();
+    layout.levels.iter().map(|level| level.id.clone()).collect()
+}
+
+fn types(window: &mut TestWindow) -> Vec<String> {
+    let names = window.document().layout().vehicle_type_names();
+    names.into_iter().map(str::to_owned).collect()
+}
+
+#[test]
+fn a_level_is_added_renamed_and_drawn_on() {
+    let mut window = layers(TestWindow::showing(two_levels()));
+    click(&mut window, "Add level");
+    fill(&mut window, "identifier", "roof");
+    fill(&mut window, "height (m)", "9,5");
+    window.key(NONE, Key::Enter);
+    assert_eq!(levels(&mut window), ["hall", "upper", "roof"]);
+    let document = window.document();
+    assert_eq!(document.layout().levels[2].elevation_m, Some(9.5));
+    assert_eq!(document.level(), Some(2), "what is drawn goes there");
+    window.harness.run_steps(3);
+    click(&mut window, "Change or delete the level hall");
+    fill(&mut window, "identifier", "upper");
+    click(&mut window, "OK");
+    let taken = window
+        .harness
+        .query_by_label("upper is taken; choose another name");
+    assert!(taken.is_some(), "the dialog stays with its error");
+    fill(&mut window, "identifier", "ground");
+    fill(&mut window, "name for people", "Ground floor");
+    window.key(NONE, Key::Enter);
+    assert_eq!(levels(&mut window), ["ground", "upper", "roof"]);
+    assert_eq!(window.document().layout().paths.get(0).level(), Some(0));
+    for _ in 0..2 {
+        window.key(Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(levels(&mut window), ["hall", "upper"]);
+    assert!(!window.document().is_changed());
+}
+
+#[test]
+fn a_level_with_elements_asks_what_becomes_of_them() {
+    let mut window = layers(TestWindow::showing(two_levels()));
+    click(&mut window, "Change or delete the level upper");
+    click(&mut window, "Delete…");
+    let text = "On the level upper are 1 path, 2 nodes. What becomes of them?";
+    assert!(window.harness.query_by_label(text).is_some());
+    window.key(NONE, Key::Escape);
+    assert_eq!(levels(&mut window).len(), 2, "Escape deletes nothing");
+    click(&mut window, "Change or delete the level upper");
+    click(&mut window, "Delete…");
+    click(&mut window, "Move to hall");
+    click(&mut window, "Delete");
+    assert_eq!(levels(&mut window), ["hall"]);
+    let document = window.document();
+    assert_eq!(document.layout().paths.get(1).level(), Some(0));
+    assert_eq!(document.scene().draw_order().len(), 2);
+    window.key(Modifiers::COMMAND, Key::Z);
+    click(&mut window, "Change or delete the level upper");
+    click(&mut window, "Delete…");
+    click(&mut window, "Delete with the level");
+    click(&mut window, "Delete");
+    assert_eq!(levels(&mut window), ["hall"]);
+    assert_eq!(window.document().scene().path_count(), 1);
+}
+
+#[test]
+fn the_first_level_is_added_to_a_layout_without_levels() {
+    let mut window = layers(TestWindow::showing(lanes(2)));
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(Command::NewLevel, &ctx);
+    window.harness.run_steps(3);
+    window.key(NONE, Key::Enter);
+    assert_eq!(levels(&mut window), ["level"]);
+    let shown = window.document().scene().draw_order().len();
+    assert_eq!(shown, 2, "paths without a level are on all");
+    let hint = "Change or delete the level level";
+    assert!(window.harness.query_by_label(hint).is_some());
+}
+
+#[test]
+fn vehicle_types_are_added_changed_and_replaced() {
+    let mut layout = lanes(3);
+    layout.paths.vehicle_types_mut().set(0, &["tug"]);
+    let mut window = layers(TestWindow::showing(layout));
+    click(&mut window, "Vehicle types");
+    window.harness.run_steps(20);
+    click(&mut window, "Add vehicle type");
+    fill(&mut window, "identifier", "crane");
+    fill(&mut window, "maxSpeed (m/s)", "1.8 km/h");
+    window.key(NONE, Key::Enter);
+    assert_eq!(types(&mut window), ["crane", "tug"]);
+    let crane = &window.document().layout().vehicle_types[0];
+    let speed = crane.attributes.value(0, "maxSpeed");
+    assert_eq!(speed.and_then(|speed| speed.number()), Some(0.5));
+    click(&mut window, "Change or delete the vehicle type tug");
+    fill(&mut window, "identifier", "tugger");
+    window.key(NONE, Key::Enter);
+    let paths = |window: &mut TestWindow| {
+        let entries = window.document().layout().paths.vehicle_types();
+        entries.of(0).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(paths(&mut window), ["tugger"]);
+    // Without its only type the path would be open to all.
+    click(&mut window, "Change or delete the vehicle type tugger");
+    click(&mut window, "Delete…");
+    click(&mut window, "Take it off them");
+    click(&mut window, "Delete");
+    assert!(has_notice(window.app(), "would be open to all types"));
+    click(&mut window, "Change or delete the vehicle type tugger");
+    click(&mut window, "Delete…");
+    click(&mut window, "Replace by crane");
+    click(&mut window, "Delete");
+    assert_eq!(
+        (types(&mut window), paths(&mut window)),
+        (vec!["crane".into()], vec!["crane".into()])
+    );
+}
