@@ -1,16 +1,14 @@
-//! Copies elements: builds new rows that refer to each other as the originals do, and inserts them
-//! into the same document.
-
-use std::sync::Arc;
+//! Copies as rows: builds new rows that refer to each other as the originals do, and the edits that
+//! insert them.
 
 use guideway_layout::Layout;
-use guideway_scene::{Edit, EditError, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
-use guideway_spline::{Affine, Point};
+use guideway_scene::{Edit, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
+use guideway_spline::Affine;
 
 use super::curves::mapped_runs;
 use super::names::Names;
 use crate::PathSet;
-use crate::change::{Change, CopiesOf};
+use crate::change::CopiesOf;
 use crate::document::Document;
 use crate::elements::Elements;
 
@@ -168,53 +166,6 @@ impl<'a> Copies<'a> {
 }
 
 impl Document {
-    /// Copies the selected paths with their nodes and stations, and selects the copied paths. See
-    /// [`Self::copy`].
-    ///
-    /// # Errors
-    /// As [`Self::copy`].
-    pub fn copy_selection(&mut self, count: u32, step_m: Point<f64>) -> Result<(), EditError> {
-        let selected = Arc::clone(&self.selection);
-        self.copy(&selected, count, step_m).map(drop)
-    }
-
-    /// Copies elements `count` times, each copy `step_m` from the previous one, and selects the
-    /// copied paths. Copies the end nodes of the paths too, and the stations whose nodes are all
-    /// copied. Copies keep properties and style; their names are numbered. Returns their rows.
-    ///
-    /// # Errors
-    /// When an element does not exist, or a copy would exceed the coordinate limit; the
-    /// document is unchanged.
-    pub fn copy(
-        &mut self,
-        elements: &Elements,
-        count: u32,
-        step_m: Point<f64>,
-    ) -> Result<Elements, EditError> {
-        self.check_exist(elements)?;
-        let all = self.with_places(elements);
-        if all.is_empty() || count == 0 {
-            return Ok(Elements::default());
-        }
-        let rows = Table::ALL.map(|of| {
-            let first = of.row_count(self.layout()) as u32;
-            first..first + all.rows(of).len() as u32 * count
-        });
-        let copies = CopiesOf {
-            elements: Arc::new(all),
-            count,
-            step_m,
-        };
-        self.perform("copy", vec![Change::Copy(copies)])?;
-        let [paths, nodes, stations] = rows.map(|rows| rows.collect::<PathSet>());
-        self.selection = Arc::new(Elements::of_paths(&paths));
-        Ok(Elements {
-            paths,
-            nodes,
-            stations,
-        })
-    }
-
     /// The new rows of copies.
     pub(super) fn copies_of(&self, of: &CopiesOf) -> Copies<'_> {
         let mut copies = Copies::into(&self.scene);

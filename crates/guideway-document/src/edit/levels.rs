@@ -14,7 +14,7 @@ use crate::elements::Elements;
 /// Column of the map that a position refers to.
 const MAP: &str = "mapId";
 
-/// What becomes of the elements of a deleted level.
+/// The fate of the elements of a deleted level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelContent {
     /// The level is only deleted if it has none.

@@ -1,20 +1,68 @@
-//! Pastes a [`Clip`] into a document.
+//! Copies elements inside a document, and pastes a [`Clip`] into one.
 
 use std::sync::Arc;
 
 use guideway_layout::{Attribute, Layout, TypeEntries};
-use guideway_scene::{Table, TableEdit};
-use guideway_spline::Affine;
+use guideway_scene::{EditError, Table, TableEdit};
+use guideway_spline::{Affine, Point};
 
 use super::clip::Clip;
 use super::copies::{Copies, Source};
 use super::error::OperationError;
 use super::property_value::{column_type, takes};
-use crate::change::Change;
+use crate::PathSet;
+use crate::change::{Change, CopiesOf};
 use crate::document::Document;
 use crate::elements::Elements;
 
 impl Document {
+    /// Copies the selected paths with their nodes and stations, and selects the copied paths. See
+    /// [`Self::copy`].
+    ///
+    /// # Errors
+    /// As [`Self::copy`].
+    pub fn copy_selection(&mut self, count: u32, step_m: Point<f64>) -> Result<(), EditError> {
+        let selected = Arc::clone(&self.selection);
+        self.copy(&selected, count, step_m).map(drop)
+    }
+
+    /// Copies elements `count` times, each copy `step_m` from the previous one, and selects the
+    /// copied paths. Copies the end nodes of the paths too, and the stations whose nodes are all
+    /// copied. Copies keep properties and style; their names are numbered. Returns their rows.
+    ///
+    /// # Errors
+    /// When an element does not exist, or a copy would exceed the coordinate limit; the
+    /// document is unchanged.
+    pub fn copy(
+        &mut self,
+        elements: &Elements,
+        count: u32,
+        step_m: Point<f64>,
+    ) -> Result<Elements, EditError> {
+        self.check_exist(elements)?;
+        let all = self.with_places(elements);
+        if all.is_empty() || count == 0 {
+            return Ok(Elements::default());
+        }
+        let rows = Table::ALL.map(|of| {
+            let first = of.row_count(self.layout()) as u32;
+            first..first + all.rows(of).len() as u32 * count
+        });
+        let copies = CopiesOf {
+            elements: Arc::new(all),
+            count,
+            step_m,
+        };
+        self.perform("copy", vec![Change::Copy(copies)])?;
+        let [paths, nodes, stations] = rows.map(|rows| rows.collect::<PathSet>());
+        self.selection = Arc::new(Elements::of_paths(&paths));
+        Ok(Elements {
+            paths,
+            nodes,
+            stations,
+        })
+    }
+
     /// Pastes copied elements, transformed, with all their properties and vehicle types. Selects
     /// the pasted paths. A name that is taken gets a number. `level` puts everything on one level;
     /// else each element goes to the level of the same identifier or name. Returns the new rows.
@@ -68,7 +116,7 @@ fn levels_of(
 ) -> Result<Vec<Option<u32>>, OperationError> {
     let rows = |of: Table| (0..of.row_count(source) as u32).map(move |row| (of, row));
     let used = Table::ALL.into_iter().flat_map(rows);
-    let used: crate::PathSet = used.filter_map(|(of, row)| of.level(source, row)).collect();
+    let used: PathSet = used.filter_map(|(of, row)| of.level(source, row)).collect();
     let same = |(row, of_source): (usize, &guideway_layout::Level)| {
         let name = of_source.name.as_deref();
         let found = target.level_named(&of_source.id);

@@ -15,7 +15,7 @@ use crate::document::Document;
 /// Columns of the parts of a name that a format has in two members.
 const NAME_PARTS: [&str; 2] = ["manufacturer", "seriesName"];
 
-/// What becomes of the entries of a deleted vehicle type.
+/// The fate of the entries of a deleted vehicle type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TypeUse<'a> {
     /// The type is only deleted if no path and no node names it, and it has no properties.

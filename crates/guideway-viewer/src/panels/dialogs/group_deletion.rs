@@ -1,4 +1,4 @@
-//! The question what becomes of the elements of a deleted level or vehicle type.
+//! Asks for the fate of the elements of a deleted level or vehicle type.
 
 use eframe::egui::{ScrollArea, Ui};
 use guideway_document::{Document, LevelContent, OperationError, TypeUse};
@@ -17,7 +17,7 @@ pub(super) enum Subject {
     VehicleType(Option<String>),
 }
 
-/// What a deletion takes along, and what can become of it.
+/// The elements of a deleted level or type, as text, and their possible fates.
 #[derive(Default)]
 pub(super) struct Deletion {
     text: String,
