@@ -1,7 +1,9 @@
 //! Read options: limits and progress observer of a read, and the source handle that readers
 //! receive.
 
-use guideway_layout::Limits;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use guideway_layout::{Layout, Limits};
 
 use crate::{Format, Problem, ReadError};
 
@@ -16,7 +18,7 @@ pub struct ReadOptions<'a> {
     pub progress: Option<&'a dyn Progress>,
 }
 
-/// Observes a long read, and may cancel it.
+/// Observes a long read or write, and may cancel a read.
 pub trait Progress: Sync {
     /// Receives that `done` of `total` steps are done; their unit depends on the reader.
     fn advance(&self, done: u64, total: u64) {
@@ -31,6 +33,51 @@ pub trait Progress: Sync {
     /// Returns whether to stop: the read then ends with [`Problem::Cancelled`].
     fn cancelled(&self) -> bool {
         false
+    }
+}
+
+/// Counts the paths that a writer has written, for an observer.
+pub(crate) struct WrittenPaths<'p> {
+    progress: Option<&'p dyn Progress>,
+    done: AtomicU64,
+    total: u64,
+}
+
+impl<'p> WrittenPaths<'p> {
+    /// Counts the paths of a layout.
+    pub(crate) fn of(layout: &Layout, progress: &'p dyn Progress) -> Self {
+        Self {
+            progress: Some(progress),
+            done: AtomicU64::new(0),
+            total: layout.paths.len() as u64,
+        }
+    }
+
+    /// Counts for nobody.
+    pub(crate) fn unwatched() -> Self {
+        Self {
+            progress: None,
+            done: AtomicU64::new(0),
+            total: 0,
+        }
+    }
+
+    /// The observer.
+    pub(crate) fn progress(&self) -> Option<&'p dyn Progress> {
+        self.progress
+    }
+
+    /// Counts one more path.
+    pub(crate) fn count(&self) {
+        /// Paths between two messages to the observer, which cost more than a path of a few bytes.
+        const STEP: u64 = 256;
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if let Some(progress) = self.progress
+            && (done.is_multiple_of(STEP) || done == self.total)
+        {
+            progress.advance(done, self.total);
+            progress.paths(done);
+        }
     }
 }
 

@@ -19,9 +19,10 @@ use crate::opentcs;
 use crate::output::replace_file;
 #[cfg(feature = "rmf")]
 use crate::rmf;
+use crate::source::WrittenPaths;
 #[cfg(feature = "vda5050")]
 use crate::vda5050;
-use crate::{Format, Losses, WriteError, WriteProblem, svg};
+use crate::{Format, Losses, Progress, WriteError, WriteProblem, svg};
 
 /// A format that can be written, in one of its versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -265,6 +266,22 @@ impl Target {
     /// # Errors
     /// When the stream fails, or when the target is an order and the paths do not form one route.
     pub fn write(self, layout: &Layout, out: &mut impl Write) -> Result<Losses, WriteProblem> {
+        struct Nobody;
+        impl Progress for Nobody {}
+        self.write_watched(layout, out, &Nobody)
+    }
+
+    /// Writes a layout to a stream, and reports the paths that are written.
+    ///
+    /// # Errors
+    /// As [`Self::write`].
+    pub fn write_watched(
+        self,
+        layout: &Layout,
+        out: &mut impl Write,
+        progress: &dyn Progress,
+    ) -> Result<Losses, WriteProblem> {
+        let paths = &WrittenPaths::of(layout, progress);
         let exported = SystemTime::now();
         #[cfg(feature = "lif")]
         let lif = |version| lif::WriteOptions { version, exported };
@@ -274,24 +291,26 @@ impl Target {
         let geojson = geojson::WriteOptions::default();
         let losses = match self {
             #[cfg(feature = "arrow")]
-            Self::Arrow => arrow::write_layout(layout, out, &arrow::WriteOptions::default())?,
+            Self::Arrow => {
+                arrow::write_watched(layout, out, &arrow::WriteOptions::default(), paths)?
+            }
             #[cfg(feature = "dxf")]
-            Self::Dxf => dxf::write_layout(layout, out)?,
+            Self::Dxf => dxf::write_watched(layout, out, paths)?,
             #[cfg(feature = "geojson")]
-            Self::GeoJson => geojson::write_layout(layout, out, &geojson)?,
+            Self::GeoJson => geojson::write_watched(layout, out, &geojson, paths)?,
             #[cfg(feature = "lif")]
-            Self::Lif1 => lif::write_layout(layout, out, &lif(Version::V1))?,
+            Self::Lif1 => lif::write_watched(layout, out, &lif(Version::V1), paths)?,
             #[cfg(feature = "lif")]
-            Self::Lif2 => lif::write_layout(layout, out, &lif(Version::V2))?,
+            Self::Lif2 => lif::write_watched(layout, out, &lif(Version::V2), paths)?,
             #[cfg(feature = "geojson")]
-            Self::Nav2 => geojson::write_route_graph(layout, out, &geojson)?,
+            Self::Nav2 => geojson::write_route_graph_watched(layout, out, &geojson, paths)?,
             #[cfg(feature = "opentcs")]
-            Self::OpenTcs6 => opentcs::write_layout(layout, out, opentcs::Version::V6)?,
+            Self::OpenTcs6 => opentcs::write_watched(layout, out, opentcs::Version::V6, paths)?,
             #[cfg(feature = "opentcs")]
-            Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7)?,
+            Self::OpenTcs7 => opentcs::write_watched(layout, out, opentcs::Version::V7, paths)?,
             #[cfg(feature = "rmf")]
             Self::Rmf => rmf::write_navigation_graph(layout, out)?,
-            Self::Svg => svg::write_layout(layout, out)?,
+            Self::Svg => svg::write_watched(layout, out, paths)?,
             #[cfg(feature = "vda5050")]
             Self::Vda2 => vda5050::write_layout(layout, out, &vda5050(vda5050::Version::V2))?,
             #[cfg(feature = "vda5050")]
@@ -311,6 +330,44 @@ fn has_extension(path: &Path, extension: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_writer_of_networks_reports_its_paths() {
+        use std::sync::Mutex;
+        struct Seen(Mutex<Vec<(u64, u64)>>);
+        impl Progress for Seen {
+            fn advance(&self, done: u64, total: u64) {
+                self.0.lock().unwrap().push((done, total));
+            }
+        }
+        let mut layout = Layout::default();
+        let nodes = [0.0, 9.0].map(|x| {
+            let at = guideway_spline::Point::new(x, 0.0);
+            layout.nodes.push(&format!("n{x}"), at, None)
+        });
+        let mut runs = guideway_spline::Runs::default();
+        let ends = nodes.map(|node| layout.nodes.position_m(node));
+        runs.push_line(ends[0], ends[1]);
+        for path in 0..600 {
+            layout.paths.push(&guideway_layout::NewPath {
+                id: &path.to_string(),
+                runs: &runs,
+                start_node: Some(nodes[0]),
+                end_node: Some(nodes[1]),
+                ..guideway_layout::NewPath::default()
+            });
+        }
+        for &target in Target::ALL {
+            let seen = Seen(Mutex::default());
+            let written = target.write_watched(&layout, &mut Vec::new(), &seen);
+            // An order is one route, and a navigation graph is small.
+            if !matches!(target, Target::Rmf | Target::Vda2 | Target::Vda3) {
+                assert!(written.is_ok(), "{target:?}");
+                let seen = seen.0.into_inner().unwrap();
+                assert_eq!(seen, [(256, 600), (512, 600), (600, 600)], "{target:?}");
+            }
+        }
+    }
 
     #[test]
     fn identifiers_and_extensions_select_one_target() {

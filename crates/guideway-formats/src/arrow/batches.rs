@@ -21,6 +21,7 @@ use super::schema::is_reserved;
 use super::write_column::Precision;
 use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES};
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 use crate::write_error::WriteProblem;
 
 /// Returns a layout as record batches, which hold all of it: of version 1 of the table if it has
@@ -79,8 +80,11 @@ impl<'a> Batches<'a> {
         }
     }
 
-    /// Returns the next batch: rows of one kind.
-    pub(super) fn next_batch(&mut self) -> Option<Result<RecordBatch, WriteProblem>> {
+    /// Returns the next batch, rows of one kind, and counts its paths.
+    pub(super) fn next_batch(
+        &mut self,
+        written_paths: &WrittenPaths<'_>,
+    ) -> Option<Result<RecordBatch, WriteProblem>> {
         while self.rows.peek().is_none() {
             self.kind = *self.kinds.next()?;
             self.rows = rows(self.layout, self.kind).peekable();
@@ -89,6 +93,9 @@ impl<'a> Batches<'a> {
         let mut batch: Vec<Row> = Vec::new();
         let (mut points, mut text_bytes) = (0, 0);
         for row in &mut self.rows {
+            if kind == Element::Path && row.part == 0 {
+                written_paths.count();
+            }
             batch.push(row);
             points += points_of(layout, kind, row);
             let text = self.sources.iter().map(|s| s.text_bytes(layout, kind, row));
@@ -115,7 +122,7 @@ impl Iterator for Batches<'_> {
     type Item = Result<RecordBatch, ArrowError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let batch = self.next_batch()?;
+        let batch = self.next_batch(&WrittenPaths::unwatched())?;
         Some(batch.map_err(|problem| ArrowError::ExternalError(problem.into())))
     }
 }

@@ -77,5 +77,6 @@ pub(crate) use self::read::read;
 pub use self::read_batches::read_batches;
 pub use self::write::ArrowWriter;
 pub use self::write_column::{Column, ColumnType, Precision};
+pub(crate) use self::write_layout::write_watched;
 pub use self::write_layout::{WriteOptions, write_layout};
 pub use crate::write_error::{WriteError, WriteProblem};

@@ -10,6 +10,7 @@ use super::write_column::Precision;
 use super::write_file::IpcFile;
 use crate::Losses;
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 use crate::write_error::WriteProblem;
 
 /// Largest distance by which `f32` may move a control point, in meters; beyond it `f64` is used.
@@ -33,12 +34,22 @@ pub fn write_layout(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> Result<Losses, WriteProblem> {
+    write_watched(layout, out, options, &WrittenPaths::unwatched())
+}
+
+/// Writes as [`write_layout`] does, and counts the paths.
+pub(crate) fn write_watched(
+    layout: &Layout,
+    out: &mut impl Write,
+    options: &WriteOptions,
+    written_paths: &WrittenPaths<'_>,
+) -> Result<Losses, WriteProblem> {
     check_finite(layout)?;
     let precision = options.precision;
     let precision = precision.unwrap_or_else(|| precision_within(layout, F32_ERROR_M));
     let mut batches = Batches::new(layout, precision);
     let mut file = IpcFile::begin(out, batches.schema())?;
-    while let Some(batch) = batches.next_batch() {
+    while let Some(batch) = batches.next_batch(written_paths) {
         file.write(&batch?)?;
     }
     file.finish()?.flush()?;

@@ -36,3 +36,4 @@ mod xdata;
 
 pub(crate) use self::read::read;
 pub use self::write::write_layout;
+pub(crate) use self::write::write_watched;

@@ -14,6 +14,7 @@ use crate::Losses;
 use crate::clamped::{ClampedCurve, is_rewritten_as, rounded};
 use crate::common_losses::common_losses;
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 
 /// Name of the attribute column that holds layer names.
 const LAYER_COLUMN: &str = "layer";
@@ -31,6 +32,15 @@ const ENTITY_COLUMN: &str = "entity";
 /// # Errors
 /// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses> {
+    write_watched(layout, out, &WrittenPaths::unwatched())
+}
+
+/// Writes as [`write_layout`] does, and counts the paths.
+pub(crate) fn write_watched(
+    layout: &Layout,
+    out: &mut impl Write,
+    written_paths: &WrittenPaths<'_>,
+) -> io::Result<Losses> {
     check_finite(layout)?;
     let mut losses = losses(layout);
     let layers = LayerTable::of(layout, &mut losses);
@@ -40,6 +50,7 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
     let (mut broken, mut without_knots, mut plain) = (0, 0, 0);
     let mut kinds = vec![None; layout.paths.len()];
     for path in layout.paths.iter() {
+        written_paths.count();
         let layer = &layers.names[layers.rows[path.row()] as usize];
         if let Some(written) = layout.paths.written_curve(path.row()) {
             without_knots += usize::from(written.knots.is_empty());

@@ -39,5 +39,7 @@ mod write_nav2;
 
 pub(crate) use self::names::ROUTE_GRAPH;
 pub(crate) use self::read::read;
+pub(crate) use self::write::write_watched;
 pub use self::write::{WriteOptions, write_layout};
 pub use self::write_nav2::write_route_graph;
+pub(crate) use self::write_nav2::write_route_graph_watched;

@@ -14,6 +14,7 @@ use super::write_losses::list_losses;
 use super::write_member::write_member;
 use crate::Losses;
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 use crate::wgs84::LocalProjection;
 
 /// Options of [`write_layout`].
@@ -44,6 +45,16 @@ pub fn write_layout(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> io::Result<Losses> {
+    write_watched(layout, out, options, &WrittenPaths::unwatched())
+}
+
+/// Writes as [`write_layout`] does, and counts the paths.
+pub(crate) fn write_watched(
+    layout: &Layout,
+    out: &mut impl Write,
+    options: &WriteOptions,
+    written_paths: &WrittenPaths<'_>,
+) -> io::Result<Losses> {
     check_finite(layout)?;
     let references = References::new(layout);
     let degrees = degrees(layout);
@@ -68,6 +79,7 @@ pub fn write_layout(
     };
     (0..layout.nodes.len() as u32).try_for_each(|node| features.node(node))?;
     for path in layout.paths.iter().filter(|path| path.runs().len() > 0) {
+        written_paths.count();
         features.path(path)?;
     }
     (0..layout.stations.len() as u32).try_for_each(|station| features.station(station))?;

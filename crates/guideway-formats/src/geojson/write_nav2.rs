@@ -16,6 +16,7 @@ use super::write::WriteOptions;
 use crate::Losses;
 use crate::common_losses::common_losses;
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 
 /// Writes a layout as a route graph of Nav2: nodes as points, paths as directed edges with whole
 /// numbers as identifiers, columns as metadata. Returns the losses.
@@ -29,6 +30,16 @@ pub fn write_route_graph(
     layout: &Layout,
     out: &mut impl Write,
     options: &WriteOptions,
+) -> io::Result<Losses> {
+    write_route_graph_watched(layout, out, options, &WrittenPaths::unwatched())
+}
+
+/// Writes as [`write_route_graph`] does, and counts the paths.
+pub(crate) fn write_route_graph_watched(
+    layout: &Layout,
+    out: &mut impl Write,
+    options: &WriteOptions,
+    written_paths: &WrittenPaths<'_>,
 ) -> io::Result<Losses> {
     check_finite(layout)?;
     let ids = Nav2Ids::new(layout);
@@ -63,6 +74,7 @@ pub fn write_route_graph(
         .filter_map(|name| layout.paths.column(name));
     let columns: Vec<&Attribute> = columns.collect();
     for path in layout.paths.iter() {
+        written_paths.count();
         let ends = [path.start_node(), path.end_node()];
         let ends = ends.map(|node| ids.nodes[node? as usize]);
         let (Some(edge), [Some(start), Some(end)]) = (&ids.edges[path.row()], ends) else {

@@ -25,4 +25,5 @@ mod write;
 
 pub(crate) use self::read::read;
 pub use self::version::Version;
+pub(crate) use self::write::write_watched;
 pub use self::write::{WriteOptions, write_layout};

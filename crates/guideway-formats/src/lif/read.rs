@@ -9,7 +9,7 @@ use super::model::{Root, is_long_array};
 use crate::input::{Input, MAX_KEPT_BYTES};
 use crate::json::{self, ArrayFault, Field, Skeleton};
 use crate::source::Source;
-use crate::{Problem, ReadError, ReadOptions, text};
+use crate::{Problem, Progress, ReadError, ReadOptions, text};
 
 /// Keys that the error of a file that is not LIF names.
 const MAX_KEYS: usize = 5;
@@ -118,7 +118,11 @@ fn syntax_error(
 }
 
 /// Reads the source text of a layout again, without limits.
-pub(super) fn read_again(layout: &Layout, text: &str) -> Option<Layout> {
+pub(super) fn read_again(
+    layout: &Layout,
+    text: &str,
+    progress: Option<&dyn Progress>,
+) -> Option<Layout> {
     let options = ReadOptions {
         limits: Limits {
             file_bytes: u64::MAX,
@@ -128,6 +132,7 @@ pub(super) fn read_again(layout: &Layout, text: &str) -> Option<Layout> {
             diagnostics_per_code: 0,
             ..Limits::default()
         },
+        progress,
         ..ReadOptions::default()
     };
     let source = Source {

@@ -45,6 +45,7 @@ use guideway_layout::Layout;
 
 pub use self::version::Version;
 pub use self::write::write_layout;
+pub(crate) use self::write::write_watched;
 
 use self::plant_mapper::PlantMapper;
 use crate::ReadError;

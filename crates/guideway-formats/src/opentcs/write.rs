@@ -21,6 +21,7 @@ use super::write_places::{write_locations, write_points};
 use super::xml_writer::XmlWriter;
 use crate::Losses;
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 
 /// Writes a layout, and returns what a plant model cannot hold of it or holds in another form.
 ///
@@ -32,6 +33,16 @@ use crate::finite::check_finite;
 /// # Errors
 /// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write, version: Version) -> io::Result<Losses> {
+    write_watched(layout, out, version, &WrittenPaths::unwatched())
+}
+
+/// Writes as [`write_layout`] does, and counts the paths.
+pub(crate) fn write_watched(
+    layout: &Layout,
+    out: &mut impl Write,
+    version: Version,
+    written_paths: &WrittenPaths<'_>,
+) -> io::Result<Losses> {
     check_finite(layout)?;
     let mut losses = Losses::of_paths(layout, layout.refused.len());
     add_general_losses(layout, &mut losses);
@@ -51,7 +62,8 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write, version: Version) -> 
     xml.attribute("version", version.number())?;
     xml.attribute("name", model_name(layout, &mut losses))?;
     write_points(&context, &mut layers, &mut xml, &mut losses)?;
-    write_paths(&context, &mut layers, &mut xml, &mut losses)?;
+    let count = || written_paths.count();
+    write_paths(&context, &mut layers, &mut xml, &mut losses, count)?;
     let mut lost = 0;
     for vehicle in &plant.vehicles {
         lost += write_object(&mut xml, &VEHICLE, vehicle)?;

@@ -40,12 +40,13 @@ struct Changes {
     half_closed: usize,
 }
 
-/// Writes all paths with a curve.
+/// Writes all paths with a curve, and counts each of them.
 pub(super) fn write_paths<W: Write>(
     context: &Context<'_>,
     layers: &mut Layers,
     xml: &mut XmlWriter<'_, W>,
     losses: &mut Losses,
+    count: impl Fn(),
 ) -> io::Result<()> {
     let mut changes = Changes::default();
     let mut rounding = Rounding::default();
@@ -59,6 +60,7 @@ pub(super) fn write_paths<W: Write>(
         Some(&*context.plant.station_names[*row])
     };
     for row in 0..context.layout.paths.len() {
+        count();
         write_path(
             context,
             layers,

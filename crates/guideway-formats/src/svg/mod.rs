@@ -55,3 +55,4 @@ mod write;
 pub(crate) use self::read::read;
 pub use self::svg_writer::{PathData, Stroke, SvgWriter};
 pub use self::write::write_layout;
+pub(crate) use self::write::write_watched;

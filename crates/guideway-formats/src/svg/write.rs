@@ -10,6 +10,7 @@ use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
 use crate::common_losses::common_losses;
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 use crate::xml_text::is_xml_char;
 
 /// Name of the attribute column that holds group names.
@@ -40,6 +41,15 @@ const MIN_MARGIN_M: f64 = 0.5;
 /// # Errors
 /// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses> {
+    write_watched(layout, out, &WrittenPaths::unwatched())
+}
+
+/// Writes as [`write_layout`] does, and counts the paths.
+pub(crate) fn write_watched(
+    layout: &Layout,
+    out: &mut impl Write,
+    written_paths: &WrittenPaths<'_>,
+) -> io::Result<Losses> {
     check_finite(layout)?;
     let Bounds { min, max } = page_bounds(layout);
     let size_mm = (max - min) * 1e3;
@@ -59,6 +69,7 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
         order.sort_by_key(|&path| rank[path]);
     }
     for path in order.into_iter().map(|row| layout.paths.get(row)) {
+        written_paths.count();
         let own = column.and_then(|c| c.values.get(path.row()));
         let level = || Some(layout.levels.get(path.level()? as usize)?.id.clone());
         let group = own.map(|value: Value<'_>| value.to_string()).or_else(level);

@@ -30,11 +30,11 @@ use super::members::ALIASES;
 use super::read::read_again;
 use super::version::Version;
 use super::write::{Edges, Network, add_between_levels, add_lost};
-use crate::Losses;
 use crate::json::Splices;
+use crate::{Losses, Progress};
 
 /// Saves a layout into the text of its file. Returns the losses; `None`, and nothing is written, if
-/// there is no text, or it has no place for a change.
+/// there is no text, or it has no place for a change. The observer sees the text being read.
 ///
 /// # Errors
 /// When `out` fails.
@@ -42,12 +42,13 @@ pub(super) fn save(
     layout: &Layout,
     out: &mut impl Write,
     version: Version,
+    progress: Option<&dyn Progress>,
 ) -> io::Result<Option<Losses>> {
     let Some(text) = layout.provenance.source_text() else {
         return Ok(None);
     };
     let text = &*text;
-    let Some(original) = read_again(layout, text) else {
+    let Some(original) = read_again(layout, text, progress) else {
         return Ok(None);
     };
     let is_empty = layout.levels.is_empty()

@@ -11,6 +11,7 @@ use crate::Losses;
 use crate::json::{Members, Tree};
 use crate::lif::members::{META, OTHER};
 use crate::lif::version::Version;
+use crate::source::WrittenPaths;
 
 /// Lines per task of a thread.
 const TASK_LINES: usize = 1 << 8;
@@ -26,6 +27,7 @@ pub(super) fn write_file(
     layout: &Layout,
     out: &mut impl Write,
     options: &WriteOptions,
+    written_paths: &WrittenPaths<'_>,
 ) -> io::Result<Losses> {
     let mut losses = Losses::of_paths(layout, layout.refused.len());
     let network = Network::complete(layout, &mut losses);
@@ -37,6 +39,7 @@ pub(super) fn write_file(
         network: &network,
         edges: &edges,
         elements: &elements,
+        written_paths,
     };
     file.write(out, options)?;
     Ok(losses)
@@ -47,6 +50,7 @@ struct File<'a> {
     network: &'a Network<'a>,
     edges: &'a Edges<'a>,
     elements: &'a Elements<'a>,
+    written_paths: &'a WrittenPaths<'a>,
 }
 
 impl<'a> File<'a> {
@@ -114,6 +118,7 @@ impl<'a> File<'a> {
         let nodes = self.network.nodes_on(level);
         write_lines(out, "nodes", nodes, |&node| self.elements.whole_node(node))?;
         let paths = self.network.paths_on(level);
+        let paths = paths.inspect(|_| self.written_paths.count());
         let edges = paths.flat_map(|path| self.edges.of_path(path));
         write_lines(out, "edges", edges, |edge| self.elements.whole_edge(edge))?;
         let stations = self.network.stations_on(level);

@@ -26,6 +26,7 @@ use super::save;
 use super::version::Version;
 use crate::Losses;
 use crate::finite::check_finite;
+use crate::source::WrittenPaths;
 
 pub(super) use self::edges::{EdgeGroups, EdgeRef, Edges};
 pub(super) use self::elements::{Elements, add_missing};
@@ -47,10 +48,21 @@ pub fn write_layout(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> io::Result<Losses> {
+    write_watched(layout, out, options, &WrittenPaths::unwatched())
+}
+
+/// Writes as [`write_layout`] does, and counts the paths.
+pub(crate) fn write_watched(
+    layout: &Layout,
+    out: &mut impl Write,
+    options: &WriteOptions,
+    written_paths: &WrittenPaths<'_>,
+) -> io::Result<Losses> {
     check_finite(layout)?;
     let is_same_version = Version::of_layout(layout) == Some(options.version);
-    if is_same_version && let Some(losses) = save::save(layout, out, options.version)? {
+    let progress = written_paths.progress();
+    if is_same_version && let Some(losses) = save::save(layout, out, options.version, progress)? {
         return Ok(losses);
     }
-    file::write_file(layout, out, options)
+    file::write_file(layout, out, options, written_paths)
 }
