@@ -1,6 +1,7 @@
 //! Losses of a conversion: the parts of a layout that a written file does not hold, with their
 //! counts.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use guideway_layout::{Attributes, Layout, Value};
@@ -18,7 +19,30 @@ pub struct Loss {
 
 impl fmt::Display for Loss {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.count, self.detail)
+        write!(f, "{} {}", self.count, self.noun())
+    }
+}
+
+impl Loss {
+    /// The description after the count: with the noun in the singular for one element.
+    pub fn noun(&self) -> Cow<'_, str> {
+        // The noun is the first word that ends in s: `values of paths`, `one-way paths: ...`.
+        let mut words = self
+            .detail
+            .split_inclusive(|c: char| !c.is_alphanumeric() && c != '-');
+        let is_noun = |word: &&str| {
+            let word = word.trim_end_matches(|c: char| !c.is_alphanumeric());
+            word.ends_with('s') && !word.ends_with("ss")
+        };
+        let Some(noun) = words.find(is_noun).filter(|_| self.count == 1) else {
+            return Cow::Borrowed(&self.detail);
+        };
+        let noun = noun.trim_end_matches(|c: char| !c.is_alphanumeric());
+        let one = match noun.strip_suffix("ies") {
+            Some(stem) => format!("{stem}y"),
+            None => noun[..noun.len() - 1].to_owned(),
+        };
+        Cow::Owned(self.detail.replacen(noun, &one, 1))
     }
 }
 
@@ -118,6 +142,37 @@ impl Losses {
             let values = rows.filter(|&row| column.values.get(row).is_some());
             let what = format!("column {}", column.name);
             self.add(what, values.count(), format!("values of {of}"));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_element_is_singular() {
+        let said = |count, detail: &str| {
+            let loss = Loss {
+                what: String::new(),
+                count,
+                detail: detail.to_owned(),
+            };
+            loss.to_string()
+        };
+        for (detail, one) in [
+            ("values of paths", "1 value of paths"),
+            (
+                "one-way paths: a drawing has no directions",
+                "1 one-way path: a drawing has no directions",
+            ),
+            ("draw ranks of paths", "1 draw rank of paths"),
+            ("properties of the layout", "1 property of the layout"),
+            ("blocks", "1 block"),
+            ("access", "1 access"),
+        ] {
+            assert_eq!(said(1, detail), one);
+            assert_eq!(said(2, detail), format!("2 {detail}"));
         }
     }
 }

@@ -131,7 +131,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
                 }
                 for loss in losses.iter() {
                     let what = text::single_line(&loss.what, 80);
-                    let detail = text::single_line(&loss.detail, 200);
+                    let detail = text::single_line(&loss.noun(), 200);
                     words += &format!("  {what}: {} {detail}\n", text::count(loss.count));
                 }
                 let (name, size) = (shown_path(output), text::bytes(*bytes));

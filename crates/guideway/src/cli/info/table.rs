@@ -45,7 +45,10 @@ pub(super) fn text(of: &Summary) -> String {
     let parts = of.source_counts.iter();
     lines.put(
         "in the file",
-        &join(parts.map(|part| format!("{} {}", count(part.count), part.name))),
+        &join(parts.map(|part| match part.name.strip_suffix('s') {
+            Some(one) => counted(part.count, one),
+            None => format!("{} {}", count(part.count), part.name),
+        })),
     );
     lines.put("memory", &bytes(of.memory_bytes));
     lines.columns("paths", &of.attributes.paths);
