@@ -78,7 +78,7 @@ mod written_curve;
 pub use attribute::{Attribute, Attributes};
 pub use cells::Cells;
 pub use check::{
-    CheckOptions, DisplayPosition, check, check_across, element_name, element_place,
+    CheckOptions, DisplayPosition, check, check_across, check_watched, element_name, element_place,
     largest_angle_rad, same_curves,
 };
 pub use code::{Code, Severity};

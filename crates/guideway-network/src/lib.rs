@@ -15,7 +15,7 @@ mod build;
 mod heading;
 mod route;
 
-pub use analyze::{AnalyzeOptions, analyze};
+pub use analyze::{AnalyzeOptions, analyze, analyze_watched};
 pub use build::{
     BuildError, BuildOptions, BuildReport, DirectionRule, DrawingSources, LayerRule, LeftNote,
     Network, NoteSource, build,

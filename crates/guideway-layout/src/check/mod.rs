@@ -62,14 +62,28 @@ use crate::{Diagnostics, Layout};
 /// assert_eq!(found.count(Code::NodeGap), 1);
 /// ```
 pub fn check(layout: &Layout, options: &CheckOptions) -> Diagnostics {
+    check_watched(layout, options, &|_| ())
+}
+
+/// Checks as [`check`] does, and tells `done` what share of the work is done, from 0 to 1.
+pub fn check_watched(layout: &Layout, options: &CheckOptions, done: &dyn Fn(f64)) -> Diagnostics {
+    /// Shares of the work after each step. Measured: a million paths of D1.
+    const UNITS_AND_IDS: f64 = 0.1;
+    const ENDPOINTS: f64 = 0.15;
+    const SHAPE: f64 = 0.6;
     let mut found = Diagnostics::with_limit(options.diagnostics_per_code);
     let scale = Scale::of(layout);
     let tolerances = Tolerances::of(&scale, options);
     units::check(layout, options, &scale, &mut found);
     ids::check(layout, &mut found);
+    done(UNITS_AND_IDS);
     endpoints::check(layout, &tolerances, &mut found);
-    shape::check(layout, options, &tolerances, &mut found);
+    done(ENDPOINTS);
+    let of_shape = |share: f64| done(ENDPOINTS + (SHAPE - ENDPOINTS) * share);
+    shape::check(layout, options, &tolerances, &of_shape, &mut found);
+    done(SHAPE);
     pairs::check(layout, &tolerances, &mut found);
     layout.locate(&mut found);
+    done(1.0);
     found
 }

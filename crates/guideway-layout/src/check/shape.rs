@@ -13,14 +13,21 @@ use crate::{Code, Diagnostics, Layout, Member, PathRef, RunPoints, Severity};
 /// Relative tolerance of the radius: rounding may push an arc of exactly the limit below it.
 const RADIUS_SLACK: f64 = 1e-6;
 
-/// Reports the worst gap, kink and bend of each path, and paths without length.
+/// Reports the worst gap, kink and bend of each path, and paths without length; and the share of
+/// the paths that are done.
 pub(super) fn check(
     layout: &Layout,
     options: &CheckOptions,
     tolerances: &Tolerances,
+    done: &dyn Fn(f64),
     found: &mut Diagnostics,
 ) {
+    /// Paths between two messages of progress.
+    const STEP: usize = 4096;
     for path in layout.paths.iter() {
+        if path.row().is_multiple_of(STEP) {
+            done(path.row() as f64 / layout.paths.len() as f64);
+        }
         match path.hull_bounds() {
             None => {}
             Some(hull) if hull.size().x.max(hull.size().y) <= tolerances.dot_m => {

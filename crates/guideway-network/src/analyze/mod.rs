@@ -38,6 +38,17 @@ use finding::MAX_TYPES;
 ///
 /// Cost: linear in the number of paths and their turns, per vehicle type, for at most 64 types.
 pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
+    analyze_watched(layout, options, &|_| ())
+}
+
+/// Finds faults as [`analyze`] does, and tells `done` what share of the work is done, from 0 to 1.
+pub fn analyze_watched(
+    layout: &Layout,
+    options: &AnalyzeOptions,
+    done: &dyn Fn(f64),
+) -> Diagnostics {
+    /// Share of the work on a vehicle type that its parts, ends and stations take.
+    const NETWORK: f64 = 0.6;
     let mut found = Diagnostics::with_limit(options.diagnostics_per_code);
     let has_nodes = layout.paths.iter().any(|p| p.start_node().is_some());
     if !has_nodes {
@@ -57,7 +68,9 @@ pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
     };
     let mut findings = Findings::default();
     let is_route = layout.provenance.format == "VDA 5050";
+    let of_types = |types_done: f64| done(types_done / types.len() as f64);
     for (row, &vehicle_type) in types.iter().enumerate() {
+        of_types(row as f64);
         let arcs = Arcs::of(layout, vehicle_type);
         findings.vehicle_type = row as u32;
         if !is_route {
@@ -67,6 +80,7 @@ pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
             ends::check(layout, &arcs, &components, &mut findings);
             stations::check_access(layout, &arcs, &components, &mut findings);
         }
+        of_types(row as f64 + NETWORK);
         turns::check(layout, vehicle_type, &arcs, options, &mut findings);
         speeds::check(layout, vehicle_type, options, &mut findings);
     }
@@ -84,5 +98,6 @@ pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
         );
     }
     layout.locate(&mut found);
+    done(1.0);
     found
 }
