@@ -121,7 +121,7 @@ pub(super) fn write(
 ) -> Result<(Losses, u64), UserError> {
     Ok(replace_file(output, |file| {
         file.set_limit(limits::limits().output_bytes);
-        let written = target.write(layout, &mut progress.counted(&mut *file));
+        let written = target.write_watched(layout, &mut progress.counted(&mut *file), progress);
         let losses = written.map_err(|problem| write_error(output, problem))?;
         Ok::<_, WriteError>((losses, file.bytes()))
     })?)
@@ -153,7 +153,7 @@ fn write_stdout(
     progress: &ProgressBar,
 ) -> Result<(Losses, u64), UserError> {
     let mut out = Stdout::lock();
-    let losses = target.write(layout, &mut progress.counted(&mut out));
+    let losses = target.write_watched(layout, &mut progress.counted(&mut out), progress);
     let losses = losses.and_then(|losses| Ok(out.flush().map(|()| losses)?));
     let losses = losses.map_err(|problem| write_error(Path::new("-"), problem))?;
     Ok((losses, out.bytes()))
@@ -208,7 +208,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             let (what, count) = (text::single_line(&loss.what, 80), text::count(loss.count));
             text += &format!(
                 "  {what}: {count} {}\n",
-                text::single_line(&loss.detail, 200)
+                text::single_line(&loss.noun(), 200)
             );
         }
         text + &format!(

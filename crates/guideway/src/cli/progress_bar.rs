@@ -135,6 +135,13 @@ impl ProgressBar {
         }
     }
 
+    /// Says what share of the step is done, from 0 to 1, which is that of `paths`, too.
+    pub(crate) fn share(&self, share: f64, paths: u64) {
+        const WHOLE: f64 = 1e6;
+        self.advance((share * WHOLE) as u64, WHOLE as u64);
+        self.paths((share * paths as f64) as u64);
+    }
+
     /// A stream whose bytes count as progress.
     pub(crate) fn counted<'p, W: Write>(&'p self, out: &'p mut W) -> Counted<'p, W> {
         Counted {
@@ -263,6 +270,15 @@ mod tests {
         let said = pace(&steps, elapsed, (0.5, 0.6));
         assert!(said.starts_with("2,500 paths/s, 8"), "{said}");
         assert!(said.ends_with("left, Ctrl+C stops"), "{said}");
+    }
+
+    #[test]
+    fn share_of_a_check_is_that_of_its_paths() {
+        let bar = ProgressBar::start("checking".to_owned(), false);
+        bar.share(0.25, 4000);
+        assert_eq!(bar.steps.share(), 0.25);
+        let said = pace(&bar.steps, Duration::from_secs(1), (0.0, 0.25));
+        assert!(said.starts_with("1,000 paths/s, 3"), "{said}");
     }
 
     #[test]

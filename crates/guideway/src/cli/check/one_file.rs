@@ -1,8 +1,10 @@
 //! Reads and checks one file; one that cannot be read has a finding that says why.
 
 use guideway::formats::ReadError;
-use guideway::layout::{Code, Diagnostics, Layout, Limits, Place, UserError, check, shown_path};
-use guideway::network::analyze;
+use guideway::layout::{
+    Code, Diagnostics, Layout, Limits, Place, UserError, check_watched, shown_path,
+};
+use guideway::network::analyze_watched;
 
 use super::args::Args;
 use super::clearance::ClearanceCheck;
@@ -60,8 +62,16 @@ pub(super) fn check_file(
     };
     let progress = out.progress("checking");
     // A doubt about the unit comes first: findings of the reader may follow from it.
-    let mut found = check(&layout, &args.check_options(&rules));
-    found.append(analyze(&layout, &args.network_options(&rules)));
+    let paths = layout.path_count() as u64;
+    // Clearances take as long as all else, and tell nothing before they are known.
+    let whole = if clearance.is_some() { 0.5 } else { 1.0 };
+    let at = |share: f64| progress.share(whole * share, paths);
+    let options = args.check_options(&rules);
+    let mut found = check_watched(&layout, &options, &|share| at(0.5 * share));
+    let options = args.network_options(&rules);
+    found.append(analyze_watched(&layout, &options, &|share| {
+        at(0.5 + 0.5 * share);
+    }));
     found.append(std::mem::take(&mut layout.diagnostics));
     let clearance = clearance.map(|check| check.run(&layout, &mut found));
     file.paths = layout.path_count() as u64;
