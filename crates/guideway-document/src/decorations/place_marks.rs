@@ -72,6 +72,15 @@ fn is_structure(layout: &Layout, path: u32) -> bool {
     matches!(element, Some(Value::Text("wall" | "door")))
 }
 
+/// Returns `true` if a node is a corner of walls or doors, where no path ends that vehicles drive.
+fn is_corner(document: &Document, node: u32) -> bool {
+    let paths = document.index().paths_at(node);
+    let mut paths = paths
+        .filter(|path| document.scene().exists(Table::Paths, *path))
+        .peekable();
+    paths.peek().is_some() && paths.all(|path| is_structure(document.layout(), path))
+}
+
 /// The paths, nodes and stations of a view that get marks.
 struct Visible<'d> {
     document: &'d Document,
@@ -104,7 +113,9 @@ impl<'d> Visible<'d> {
         let paths = few(&mut index.paths_in(bounds).filter(is_shown));
         let layout = document.layout();
         let is_on_level = |node: &u32| document.shows_level(layout.nodes.level(*node));
-        let nodes = few(&mut index.nodes_in(bounds).filter(is_on_level));
+        let is_corner = |node: &u32| is_corner(document, *node);
+        let nodes = index.nodes_in(bounds).filter(is_on_level);
+        let nodes = few(&mut nodes.filter(|node| !is_corner(node)));
         let station_m = |station: u32| document.station_position_m(station);
         let is_visible = |station: &u32| {
             scene.exists(Table::Stations, *station)

@@ -256,6 +256,36 @@ fn hidden_kinds_have_neither_symbols_nor_names() {
 }
 
 #[test]
+fn corners_of_walls_have_no_symbols() {
+    let mut layout = Layout::default();
+    let mut node = |id: &str, x, y| layout.nodes.push(id, p(x, y), None);
+    let (corner, shared) = (node("corner", 2.0, 0.0), node("shared", 5.0, 0.0));
+    let goal = node("goal", 8.0, 0.0);
+    node("alone", 5.0, 2.0);
+    for (row, (start, end)) in [(corner, shared), (shared, goal)].into_iter().enumerate() {
+        let mut runs = Runs::default();
+        runs.push_line(layout.nodes.position_m(start), layout.nodes.position_m(end));
+        layout.paths.push(&NewPath {
+            runs: &runs,
+            start_node: Some(start),
+            end_node: Some(end),
+            ..NewPath::default()
+        });
+        let element = Value::Text(if row == 0 { "wall" } else { "lane" });
+        layout.paths.attributes.set(row, "element", element);
+    }
+    let view = view(p(5.0, 1.0), 40.0);
+    let mut marked: Vec<f64> = marks_of(layout, &view)
+        .nodes
+        .iter()
+        .map(|at| at.x)
+        .collect();
+    marked.sort_by(f64::total_cmp);
+    let expected = [p(5.0, 0.0), p(5.0, 2.0), p(8.0, 0.0)].map(|at| view.pixel_from_world(at).x);
+    assert_eq!(marked, expected);
+}
+
+#[test]
 fn walls_and_doors_have_no_arrows() {
     let view = view(p(5.0, 1.0), 40.0);
     let mut layout = lanes(3);
