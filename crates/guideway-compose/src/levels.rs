@@ -1,22 +1,13 @@
 //! Several levels side by side: one picture per level, at one scale, in a grid.
 
-use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
 use guideway_formats::Progress;
-use guideway_scene::{Frame, FrameSize, Method, RenderError, Rgba, Scene};
+use guideway_scene::{Frame, FrameSize, Method, RenderError, elapsed_ms};
 use guideway_spline::{Bounds, Point};
 
-use crate::{ComposeError, Picture, Rendered, save_png_by};
-
-/// A level beside others.
-#[derive(Clone)]
-pub struct LevelPart {
-    /// The paths of the level.
-    pub scene: Arc<Scene>,
-    /// Its title.
-    pub title: String,
-}
+use crate::{ComposeError, LevelPart, Picture, Rendered, StripSink};
 
 /// The columns and rows of a grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,22 +49,47 @@ impl Grid {
 }
 
 impl Picture {
-    /// Renders levels side by side into a PNG file, atomically: the first one in the upper left
-    /// corner. Everything else is that of this picture. Every part shows the place that holds all
-    /// levels.
+    /// The pictures of all levels, each with its upper left corner in pixels: the first one in the
+    /// upper left corner. Every one shows the place that holds all levels, and is else as this one.
     ///
     /// # Errors
-    /// See [`Picture::render`]; also when the picture exceeds the memory or is too small for its
-    /// parts.
-    pub fn save_levels_png(
+    /// When the picture is too small for its levels.
+    pub(crate) fn of_levels(&self) -> Result<Vec<(Self, [u32; 2])>, RenderError> {
+        let shown = self.levels.iter().filter_map(|level| level.scene.bounds());
+        let plan = self
+            .backdrop
+            .floor_plan
+            .as_ref()
+            .and_then(|plan| plan.bounds());
+        let frame_m = shown.chain(plan).reduce(Bounds::union);
+        let extent_m = frame_m.map_or(Point::default(), |bounds| bounds.size());
+        let grid = Grid::new(self.levels.len() as u32, self.viewport.size, extent_m);
+        let [width, height] = grid.part_px(self.viewport.size);
+        let size = FrameSize::new(width, height)?;
+        let of_level = |(i, level): (u32, &LevelPart)| {
+            let mut picture = self.clone();
+            picture.levels = Vec::new();
+            picture.scene = Arc::clone(&level.scene);
+            picture.viewport.size = size;
+            picture.frame_m = self.frame_m.or(frame_m);
+            picture.decorations.title = Some(level.title.clone());
+            let (column, row) = (i % grid.columns, i / grid.columns);
+            (picture, [column * width, row * height])
+        };
+        Ok((0..).zip(&self.levels).map(of_level).collect())
+    }
+
+    /// Renders the levels into a frame that holds the whole picture, and hands it to `sink`.
+    ///
+    /// # Errors
+    /// See [`Picture::render`].
+    pub(crate) fn render_levels(
         &self,
-        parts: &[LevelPart],
         method: &dyn Method,
-        path: impl AsRef<Path>,
         progress: &dyn Progress,
+        sink: StripSink<'_>,
     ) -> Result<Rendered, ComposeError> {
         let size = self.viewport.size;
-        // The picture is in memory as a whole.
         let needed_bytes = 4 * size.pixels() as u64;
         if needed_bytes > self.budget.memory_bytes {
             let error = RenderError::Budget {
@@ -84,71 +100,71 @@ impl Picture {
             };
             return Err(error.into());
         }
-        let texts: Vec<_> = self.png_texts()?.into_iter().take(1).collect();
-        let (frame, rendered) = self.render_levels(parts, method, progress)?;
-        save_png_by::<_, ComposeError>(path, size, &texts, |sink| sink(&frame))?;
-        Ok(rendered)
-    }
-
-    fn render_levels(
-        &self,
-        parts: &[LevelPart],
-        method: &dyn Method,
-        progress: &dyn Progress,
-    ) -> Result<(Frame, Rendered), ComposeError> {
-        let size = self.viewport.size;
-        let shown = parts.iter().filter_map(|part| part.scene.bounds());
-        let plan = self
-            .backdrop
-            .floor_plan
-            .as_ref()
-            .and_then(|plan| plan.bounds());
-        let frame_m = shown.chain(plan).reduce(Bounds::union);
-        let extent_m = frame_m.map_or(Point::default(), |bounds| bounds.size());
-        let grid = Grid::new(parts.len() as u32, size, extent_m);
-        let [width, height] = grid.part_px(size);
-        let part_size = FrameSize::new(width, height)?;
         let mut frame = Frame::new(size);
-        frame.pixels_mut().fill(pixel(self.style.background));
-        let mut all = None::<Rendered>;
-        for (i, part) in parts.iter().enumerate() {
-            let mut picture = self.clone();
-            picture.scene = Arc::clone(&part.scene);
-            picture.viewport.size = part_size;
-            picture.frame_m = self.frame_m.or(frame_m);
-            picture.decorations.title = Some(part.title.clone());
-            let (of_part, rendered) = picture.render_frame(method, progress)?;
-            let (column, row) = (i as u32 % grid.columns, i as u32 / grid.columns);
-            copy(&of_part, &mut frame, column * width, row * height);
-            match &mut all {
-                Some(all) => {
-                    all.report.drawn += rendered.report.drawn;
-                    all.report.culled += rendered.report.culled;
-                    all.report.notes.extend(rendered.report.notes);
-                    all.render_ms += rendered.render_ms;
-                }
-                None => all = Some(rendered),
-            }
+        let background = self.style.background.to_u32().to_be_bytes();
+        frame.pixels_mut().fill(background);
+        let pictures = self.of_levels()?;
+        let mut all = Vec::new();
+        for (i, (picture, corner)) in pictures.iter().enumerate() {
+            let progress = OfLevel {
+                all: progress,
+                done: i as u64,
+                levels: pictures.len() as u64,
+            };
+            let (of_level, rendered) = picture.render_frame(method, &progress)?;
+            copy(&of_level, &mut frame, *corner);
+            all.push(rendered);
         }
-        match all {
-            Some(mut all) => {
-                let report = &mut all.report;
-                let shown = report.drawn + report.culled + report.refused;
-                report.hidden = report.total.saturating_sub(shown);
-                report.notes.dedup();
-                Ok((frame, all))
-            }
-            None => self.render_frame(method, progress),
-        }
+        let started = Instant::now();
+        sink(&frame)?;
+        let mut joined = join(all);
+        joined.write_ms = elapsed_ms(started);
+        Ok(joined)
     }
 }
 
-fn pixel(color: Rgba) -> [u8; 4] {
-    color.to_u32().to_be_bytes()
+/// Progress of one of several levels.
+struct OfLevel<'p> {
+    all: &'p dyn Progress,
+    done: u64,
+    levels: u64,
+}
+
+impl Progress for OfLevel<'_> {
+    fn advance(&self, done: u64, total: u64) {
+        self.all
+            .advance(self.done * total + done, self.levels * total);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.all.cancelled()
+    }
+}
+
+/// The account of a picture of levels: what is hidden is on no level.
+///
+/// # Panics
+/// Without a level.
+pub(crate) fn join(levels: Vec<Rendered>) -> Rendered {
+    let joined = levels.into_iter().reduce(|mut all, level| {
+        let (report, other) = (&mut all.report, level.report);
+        report.drawn += other.drawn;
+        report.culled += other.culled;
+        report.notes.extend(other.notes);
+        all.prepare_ms += level.prepare_ms;
+        all.render_ms += level.render_ms;
+        all
+    });
+    let mut all = joined.expect("a picture of levels has one");
+    let report = &mut all.report;
+    let shown = report.drawn + report.culled + report.refused;
+    report.hidden = report.total.saturating_sub(shown);
+    report.notes.dedup();
+    all
 }
 
 /// Copies a frame into a larger one, its upper left pixel to (left, top).
-fn copy(from: &Frame, to: &mut Frame, left: u32, top: u32) {
+fn copy(from: &Frame, to: &mut Frame, [left, top]: [u32; 2]) {
     let (width, to_width) = (from.size().width() as usize, to.size().width() as usize);
     let rows = from.pixels().chunks_exact(width);
     let targets = to.pixels_mut().chunks_exact_mut(to_width);
@@ -161,11 +177,11 @@ fn copy(from: &Frame, to: &mut Frame, left: u32, top: u32) {
 mod tests {
     use guideway_cpu::Cpu;
     use guideway_layout::{Layout, Level, NewPath};
-    use guideway_scene::SceneOptions;
+    use guideway_scene::{Scene, SceneOptions};
     use guideway_spline::Runs;
 
     use super::*;
-    use crate::NoProgress;
+    use crate::{NoProgress, VectorFormat};
 
     /// A line per level, the second one 10 m above the first one.
     fn parts() -> Vec<LevelPart> {
@@ -197,12 +213,18 @@ mod tests {
         vec![part("L0"), part("L1")]
     }
 
+    fn picture() -> Picture {
+        let levels = parts();
+        let size = FrameSize::new(400, 600).unwrap();
+        let mut picture = Picture::new(Arc::clone(&levels[0].scene), size);
+        picture.levels = levels;
+        picture
+    }
+
     #[test]
     fn each_level_has_its_part_at_one_scale() {
-        let parts = parts();
-        let size = FrameSize::new(400, 600).unwrap();
-        let picture = Picture::new(Arc::clone(&parts[0].scene), size);
-        let (frame, rendered) = picture.render_levels(&parts, &Cpu, &NoProgress).unwrap();
+        let picture = picture();
+        let (frame, rendered) = picture.render_frame(&Cpu, &NoProgress).unwrap();
         // One above the other: each is 20 m wide.
         let is_dark = |y: usize| frame.pixels()[y * 400 + 200] != [255; 4];
         let lines = |rows: std::ops::Range<usize>| {
@@ -217,6 +239,45 @@ mod tests {
         assert!((apart - 10.0 * px_per_m).abs() < 2.0, "{apart}");
         let report = &rendered.report;
         assert_eq!((report.drawn, report.total, report.hidden), (2, 2, 0));
+    }
+
+    #[test]
+    fn vector_graphics_have_a_clipped_part_per_level() {
+        let written = |format| {
+            let mut out = Vec::new();
+            let written = picture().write_vector(format, &mut out, |problem| panic!("{problem}"));
+            let report = written.unwrap().report;
+            assert_eq!((report.drawn, report.total, report.hidden), (2, 2, 0));
+            out
+        };
+        let svg = String::from_utf8(written(VectorFormat::Svg)).unwrap();
+        for part in [
+            r#"<svg x="0" y="0" width="400" height="300">"#,
+            r#"<svg x="0" y="300" width="400" height="300">"#,
+            ">L0</text>",
+            ">L1</text>",
+        ] {
+            assert_eq!(svg.matches(part).count(), 1, "{part}: {svg}");
+        }
+        assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
+        assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count());
+        let pdf = written(VectorFormat::Pdf);
+        assert!(pdf.starts_with(b"%PDF-1.6"));
+    }
+
+    #[test]
+    fn progress_of_levels_is_one_scale() {
+        struct Seen(std::sync::Mutex<Vec<f64>>);
+        impl Progress for Seen {
+            fn advance(&self, done: u64, total: u64) {
+                self.0.lock().unwrap().push(done as f64 / total as f64);
+            }
+        }
+        let seen = Seen(std::sync::Mutex::default());
+        picture().render_frame(&Cpu, &seen).unwrap();
+        let shares = seen.0.into_inner().unwrap();
+        assert!(shares.is_sorted() && shares.len() > 1, "{shares:?}");
+        assert_eq!(shares.last(), Some(&1.0));
     }
 
     #[test]

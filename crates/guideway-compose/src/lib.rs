@@ -70,9 +70,8 @@ pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, 
 pub use guideway_document::text_format;
 pub use guideway_formats::lock_regular_file;
 pub use guideway_formats::raster::ImagePlacement;
-pub use levels::LevelPart;
-pub use picture::{Picture, Viewport};
-pub use png_writer::{PngTexts, save_png, save_png_by, world_file, write_png_by};
+pub use picture::{LevelPart, Picture, Viewport};
+pub use png_writer::{PngHeader, save_png, save_png_by, world_file, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};
 pub use text::{SystemFont, system_font};
 pub use vector_file::VectorFormat;

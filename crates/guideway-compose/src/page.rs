@@ -59,6 +59,13 @@ pub(crate) trait Page {
 
     /// Ends the innermost group.
     fn end_group(&mut self) -> io::Result<()>;
+
+    /// Begins a part with its own origin, given its upper left corner and its size in pixels.
+    /// Nothing is drawn outside of it.
+    fn begin_part(&mut self, corner_px: [u32; 2], size_px: [u32; 2]) -> io::Result<()>;
+
+    /// Ends a part.
+    fn end_part(&mut self) -> io::Result<()>;
 }
 
 impl<W: Write> Page for SvgWriter<'_, W> {
@@ -112,5 +119,13 @@ impl<W: Write> Page for SvgWriter<'_, W> {
 
     fn end_group(&mut self) -> io::Result<()> {
         SvgWriter::end_group(self)
+    }
+
+    fn begin_part(&mut self, corner_px: [u32; 2], size_px: [u32; 2]) -> io::Result<()> {
+        self.begin_viewport(corner_px, size_px)
+    }
+
+    fn end_part(&mut self) -> io::Result<()> {
+        self.end_viewport()
     }
 }

@@ -8,7 +8,7 @@ use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
 use crate::decorations::{Decorations, PlacedDecorations, place, place_legend};
-use crate::png_writer::{PngTexts, png_texts};
+use crate::png_writer::PngHeader;
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
 /// those that differ.
@@ -16,6 +16,8 @@ use crate::png_writer::{PngTexts, png_texts};
 pub struct Picture {
     /// The paths.
     pub scene: Arc<Scene>,
+    /// Levels to show side by side at one scale, in place of the paths; empty for one picture.
+    pub levels: Vec<LevelPart>,
     /// Size and detail.
     pub viewport: Viewport,
     /// Box that a viewport fits, in meters; `None` for all layers.
@@ -30,6 +32,15 @@ pub struct Picture {
     pub decorations: Decorations,
     /// Memory and threads of the render method.
     pub budget: Budget,
+}
+
+/// A level beside others.
+#[derive(Clone)]
+pub struct LevelPart {
+    /// The paths of the level.
+    pub scene: Arc<Scene>,
+    /// Its title.
+    pub title: String,
 }
 
 /// Size of a picture and the detail that it shows.
@@ -68,6 +79,7 @@ impl Picture {
     pub fn new(scene: Arc<Scene>, size: FrameSize) -> Self {
         Self {
             scene,
+            levels: Vec::new(),
             viewport: Viewport::fit(size),
             frame_m: None,
             style: Style::default(),
@@ -80,6 +92,7 @@ impl Picture {
 
     /// The view that the viewport selects. Where it fits all layers, a title keeps a band at the
     /// top to itself, and so does a legend for which no corner is free, there or on the left.
+    /// Levels side by side have views of their own.
     ///
     /// # Errors
     /// When center or scale are out of range: see [`View::new`].
@@ -116,13 +129,17 @@ impl Picture {
         }
     }
 
-    /// The texts of a PNG file of the picture: program, title, bounds and scale.
+    /// The header of a PNG file of the picture. Levels side by side have no common place.
     ///
     /// # Errors
     /// See [`Picture::view`].
-    pub fn png_texts(&self) -> Result<PngTexts, RenderError> {
+    pub fn png_header(&self) -> Result<PngHeader, RenderError> {
         let title = self.decorations.title.as_deref();
-        Ok(png_texts(&self.view()?, title))
+        let mut header = PngHeader::new(title, self.decoration_style().px_per_point);
+        if self.levels.is_empty() {
+            header.push_place(&self.view()?);
+        }
+        Ok(header)
     }
 
     /// The view that fits `bounds` into the picture without bands on the left and at the top, or

@@ -6,25 +6,28 @@ use std::path::Path;
 
 use guideway_formats::{SaveError, replace_file};
 use guideway_scene::{Frame, FrameSize, View};
-use guideway_spline::Point;
+use guideway_spline::{Bounds, Point};
+use png::PixelDimensions;
 
 /// Saves a frame as a PNG file, atomically.
 ///
 /// # Errors
 /// When the folder cannot be written or its disk is full. An existing file is then unchanged.
 pub fn save_png(frame: &Frame, path: impl AsRef<Path>) -> Result<(), SaveError> {
-    save_png_by(path, frame.size(), &[], |sink| sink(frame))
+    save_png_by(path, frame.size(), &PngHeader::default(), |sink| {
+        sink(frame)
+    })
 }
 
 /// Saves a picture that is never in memory as a whole as a PNG file, atomically: `draw` hands its
-/// rows to the sink, top first, a strip per call. `texts` become text chunks of the file.
+/// rows to the sink, top first, a strip per call.
 ///
 /// # Errors
 /// See [`save_png`]; also those of `draw`.
 pub fn save_png_by<T, E: From<SaveError>>(
     path: impl AsRef<Path>,
     size: FrameSize,
-    texts: &[(&str, String)],
+    header: &PngHeader,
     draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
 ) -> Result<T, E> {
     let path = path.as_ref();
@@ -34,7 +37,7 @@ pub fn save_png_by<T, E: From<SaveError>>(
             problem,
         })
     };
-    replace_file(path, |file| write_png_by(file, size, texts, fail, draw))
+    replace_file(path, |file| write_png_by(file, size, header, fail, draw))
 }
 
 /// Writes a picture as PNG to a stream, strip by strip: see [`save_png_by`]. `fail` converts the
@@ -45,14 +48,19 @@ pub fn save_png_by<T, E: From<SaveError>>(
 pub fn write_png_by<T, E>(
     target: impl Write,
     size: FrameSize,
-    texts: &[(&str, String)],
+    header: &PngHeader,
     fail: impl Fn(io::Error) -> E,
     draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
 ) -> Result<T, E> {
     let fail_png = |error| fail(as_io(error));
     let mut target = BufWriter::with_capacity(1 << 16, target);
     let mut encoder = encoder(&mut target, [size.width(), size.height()]);
-    for (keyword, text) in texts {
+    encoder.set_pixel_dims(header.print_px_per_m.map(|px_per_m| PixelDimensions {
+        xppu: px_per_m.round() as u32,
+        yppu: px_per_m.round() as u32,
+        unit: png::Unit::Meter,
+    }));
+    for (keyword, text) in &header.texts {
         let added = encoder.add_itxt_chunk((*keyword).to_owned(), text.clone());
         added.map_err(fail_png)?;
     }
@@ -103,28 +111,37 @@ fn as_io(error: png::EncodingError) -> io::Error {
     }
 }
 
-/// Keywords and values of the text chunks of a PNG file (PNG, third edition, 11.3.3).
-pub type PngTexts = Vec<(&'static str, String)>;
+/// What a PNG file says beside its pixels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PngHeader {
+    /// Keywords and values of the text chunks (PNG, third edition, 11.3.3).
+    pub texts: Vec<(&'static str, String)>,
+    /// Pixels per meter of paper or screen, the chunk pHYs; `None` leaves it to the program.
+    pub print_px_per_m: Option<f64>,
+}
 
-/// The texts that say what a picture shows: program, title, bounds in meters and scale.
-pub(crate) fn png_texts(view: &View, title: Option<&str>) -> PngTexts {
-    let bounds = view.world_bounds();
-    let mut texts = vec![
-        (
-            "Software",
-            format!("Guideway {}", env!("CARGO_PKG_VERSION")),
-        ),
-        (
-            "guideway:bounds_m",
-            format!(
-                "{} {} {} {}",
-                bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y
-            ),
-        ),
-        ("guideway:px_per_m", view.px_per_m().to_string()),
-    ];
-    texts.extend(title.map(|title| ("Title", title.to_owned())));
-    texts
+impl PngHeader {
+    /// The header of a picture: the program, its title, and its size on paper, at which a point of
+    /// its texts is as large as on a screen of 96 dpi.
+    pub(crate) fn new(title: Option<&str>, px_per_point: f64) -> Self {
+        const POINTS_PER_M: f64 = 96.0 / 0.0254;
+        let program = format!("Guideway {}", env!("CARGO_PKG_VERSION"));
+        let mut texts = vec![("Software", program)];
+        texts.extend(title.map(|title| ("Title", title.to_owned())));
+        Self {
+            texts,
+            print_px_per_m: Some(POINTS_PER_M * px_per_point),
+        }
+    }
+
+    /// Adds where the picture lies: bounds in meters, and scale.
+    pub(crate) fn push_place(&mut self, view: &View) {
+        let Bounds { min, max } = view.world_bounds();
+        let bounds = format!("{} {} {} {}", min.x, min.y, max.x, max.y);
+        self.texts.push(("guideway:bounds_m", bounds));
+        let px_per_m = view.px_per_m().to_string();
+        self.texts.push(("guideway:px_per_m", px_per_m));
+    }
 }
 
 /// The content of a world file, by which QGIS and other geographic information systems place an
@@ -161,7 +178,11 @@ mod tests {
             let draw = |sink: &mut dyn FnMut(&Frame) -> io::Result<()>| {
                 (0..times).try_for_each(|_| sink(&rows))
             };
-            write_png_by(&mut bytes, size, &[], |problem| problem, draw).unwrap();
+            let header = PngHeader {
+                print_px_per_m: Some(3779.53),
+                ..PngHeader::default()
+            };
+            write_png_by(&mut bytes, size, &header, |problem| problem, draw).unwrap();
 
             let mut reader = png::Decoder::new(io::Cursor::new(bytes))
                 .read_info()
@@ -170,6 +191,8 @@ mod tests {
             let info = reader.next_frame(&mut pixels).unwrap();
             assert_eq!((info.width, info.height), (3, 2 * times));
             assert_eq!(pixels, rows.bytes().repeat(times as usize));
+            let printed = reader.info().pixel_dims.unwrap();
+            assert_eq!((printed.xppu, printed.yppu), (3780, 3780));
         }
     }
 
@@ -179,9 +202,10 @@ mod tests {
         let path = folder.path().join("a.png");
         let size = FrameSize::new(3, 4).unwrap();
         let rows = frame(3, 2);
-        let half: Result<(), SaveError> = save_png_by(&path, size, &[], |sink| sink(&rows));
+        let half: Result<(), SaveError> =
+            save_png_by(&path, size, &PngHeader::default(), |sink| sink(&rows));
         assert!(half.is_err());
-        let stopped = save_png_by(&path, size, &[], |sink| {
+        let stopped = save_png_by(&path, size, &PngHeader::default(), |sink| {
             sink(&rows)?;
             Err(SaveError {
                 path: path.clone(),
@@ -191,9 +215,10 @@ mod tests {
         let stopped: Result<(), SaveError> = stopped;
         assert!(stopped.is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-        let whole: Result<(), SaveError> = save_png_by(&path, size, &[], |sink| {
-            sink(&rows).and_then(|()| sink(&rows))
-        });
+        let whole: Result<(), SaveError> =
+            save_png_by(&path, size, &PngHeader::default(), |sink| {
+                sink(&rows).and_then(|()| sink(&rows))
+            });
         assert!(whole.is_ok() && path.is_file());
     }
 

@@ -18,7 +18,7 @@ use crate::{ComposeError, Picture, blend, save_png_by};
 /// Outcome of a picture: the view, the account of all paths and the time per step.
 #[derive(Clone, Debug)]
 pub struct Rendered {
-    /// The view that the picture shows.
+    /// The view that the picture shows; of levels side by side, that of the first one.
     pub view: View,
     /// Number of paths drawn, culled, hidden and refused, and notes for the user.
     pub report: Report,
@@ -55,6 +55,9 @@ impl Picture {
         progress: &dyn Progress,
         sink: StripSink<'_>,
     ) -> Result<Rendered, ComposeError> {
+        if !self.levels.is_empty() {
+            return self.render_levels(method, progress, sink);
+        }
         let started = Instant::now();
         let view = self.view()?;
         let visible = self.backdrop.visible(&self.scene, &view, &self.budget)?;
@@ -160,8 +163,8 @@ impl Picture {
         path: impl AsRef<Path>,
         progress: &dyn Progress,
     ) -> Result<Rendered, ComposeError> {
-        let texts = self.png_texts()?;
-        save_png_by(path, self.viewport.size, &texts, |sink| {
+        let header = self.png_header()?;
+        save_png_by(path, self.viewport.size, &header, |sink| {
             self.render(method, progress, sink)
         })
     }

@@ -1,5 +1,6 @@
 //! Writes a picture as SVG or PDF: the same layers, order, colors and widths, as exact curves.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -10,6 +11,7 @@ use guideway_spline::Point;
 
 use crate::backdrop::VisibleBackdrop;
 use crate::decorations::PlacedDecorations;
+use crate::levels::join;
 use crate::page::Page;
 use crate::pdf::PdfPage;
 use crate::vector::{width_px, write_draw_list, write_paths};
@@ -59,11 +61,12 @@ impl Picture {
             problem,
         };
         // Before the file is begun: an error of the picture leaves none.
-        let prepared = self.prepare_vector()?;
+        let sheet = self.sheet()?;
+        let parts = prepare(&sheet)?;
         let drawn = replace_file(output, |file| {
-            self.write_prepared(format, &prepared, file).map_err(fail)
+            self.write_parts(format, &parts, file).map_err(fail)
         })?;
-        Ok(self.vector_report(format, prepared, drawn))
+        Ok(report(format, parts, drawn))
     }
 
     /// Writes the picture as vector graphics to a stream. `fail` converts the errors of the stream.
@@ -76,90 +79,135 @@ impl Picture {
         out: &mut impl Write,
         fail: impl FnOnce(io::Error) -> ComposeError,
     ) -> Result<Rendered, ComposeError> {
-        let prepared = self.prepare_vector()?;
-        let drawn = self.write_prepared(format, &prepared, out).map_err(fail)?;
-        Ok(self.vector_report(format, prepared, drawn))
+        let sheet = self.sheet()?;
+        let parts = prepare(&sheet)?;
+        let drawn = self.write_parts(format, &parts, out).map_err(fail)?;
+        Ok(report(format, parts, drawn))
     }
 
-    fn prepare_vector(&self) -> Result<Prepared<'_>, ComposeError> {
+    /// The pictures of all levels, or this one.
+    fn sheet(&self) -> Result<Vec<Placed<'_>>, ComposeError> {
         if self.style.shading != Shading::Color {
             return Err(ComposeError::DensityInVector);
         }
-        let view = self.view()?;
-        Ok(Prepared {
-            backdrop: self.backdrop.visible(&self.scene, &view, &self.budget)?,
-            decorations: self.place_decorations(&view),
-            view,
-        })
-    }
-
-    fn vector_report(&self, format: VectorFormat, prepared: Prepared<'_>, drawn: u64) -> Rendered {
-        let mut report = Report::of(format.name(), &self.scene, drawn);
-        report.notes.extend(prepared.decorations.notes);
-        Rendered {
-            view: prepared.view,
-            report,
-            method: MethodInfo {
-                name: format.name(),
-                summary: "Exact curves, rasterized by the program that shows them",
-                device: "none".to_owned(),
-            },
-            swept: prepared.backdrop.into_report(),
-            prepare_ms: 0.0,
-            render_ms: 0.0,
-            write_ms: 0.0,
+        if self.levels.is_empty() {
+            return Ok(vec![Placed {
+                picture: Cow::Borrowed(self),
+                corner_px: [0, 0],
+            }]);
         }
+        let placed = |(picture, corner_px)| Placed {
+            picture: Cow::Owned(picture),
+            corner_px,
+        };
+        Ok(self.of_levels()?.into_iter().map(placed).collect())
     }
 
-    fn write_prepared(
+    /// Writes all parts. Returns the number of paths in the view of each.
+    fn write_parts(
         &self,
         format: VectorFormat,
-        prepared: &Prepared<'_>,
+        parts: &[Prepared<'_>],
         out: &mut impl Write,
-    ) -> io::Result<u64> {
+    ) -> io::Result<Vec<u64>> {
         match format {
-            VectorFormat::Svg => self.write_svg(out, prepared),
+            VectorFormat::Svg => self.write_svg(out, parts),
             VectorFormat::Pdf => {
-                let mut page = PdfPage::new(prepared.view.size())?;
-                let drawn = self.write_layers(prepared, &mut page)?;
+                let mut page = PdfPage::new(self.viewport.size)?;
+                let drawn = self.write_layers(parts, &mut page)?;
                 page.finish(self.decorations.title.as_deref(), out)?;
                 Ok(drawn)
             }
         }
     }
 
-    fn write_svg(&self, out: &mut impl Write, prepared: &Prepared<'_>) -> io::Result<u64> {
-        let (scene, style, view) = (&self.scene, &self.style, &prepared.view);
-        let size = view.size();
+    fn write_svg(&self, out: &mut impl Write, parts: &[Prepared<'_>]) -> io::Result<Vec<u64>> {
+        let size = self.viewport.size;
         let (width, height) = (f64::from(size.width()), f64::from(size.height()));
         // The stroke of the first path stands for all that equal it, which keeps the file small.
-        let first = scene.draw_order().first();
-        let common = first.map_or(Stroke::new(0xFF, 1.0), |&path| {
-            Stroke::new(
-                scene.color(path).to_u32(),
-                width_px(scene, path, view, style),
-            )
-        });
+        let common = parts.first().and_then(Prepared::first_stroke);
+        let common = common.unwrap_or(Stroke::new(0xFF, 1.0));
         let attributes = format!(r#"width="{width}" height="{height}""#);
         let mut page = SvgWriter::begin(out, [0.0, 0.0, width, height], &attributes, &common)?;
-        let drawn = self.write_layers(prepared, &mut page)?;
+        let drawn = self.write_layers(parts, &mut page)?;
         page.finish()?;
         Ok(drawn)
     }
 
-    /// Writes all layers. Returns the number of paths in the view.
-    fn write_layers(&self, prepared: &Prepared<'_>, page: &mut impl Page) -> io::Result<u64> {
-        let (scene, style, view) = (&self.scene, &self.style, &prepared.view);
-        let decorations = &prepared.decorations;
-        if style.background.a > 0 {
-            let size = view.size();
+    fn write_layers(&self, parts: &[Prepared<'_>], page: &mut impl Page) -> io::Result<Vec<u64>> {
+        let background = self.style.background;
+        if background.a > 0 {
+            let size = self.viewport.size;
             let end = Point::new(f64::from(size.width()), f64::from(size.height()));
-            page.rectangle([Point::default(), end], style.background)?;
+            page.rectangle([Point::default(), end], background)?;
         }
+        let mut drawn = Vec::with_capacity(parts.len());
+        for part in parts {
+            if self.levels.is_empty() {
+                drawn.push(part.write(page)?);
+                continue;
+            }
+            let size = part.view.size();
+            let label = part.picture.decorations.title.as_deref();
+            page.begin_group(label.unwrap_or_default(), 1.0)?;
+            page.begin_part(part.corner_px, [size.width(), size.height()])?;
+            drawn.push(part.write(page)?);
+            page.end_part()?;
+            page.end_group()?;
+        }
+        Ok(drawn)
+    }
+}
+
+/// A picture and its upper left corner on a page.
+struct Placed<'p> {
+    picture: Cow<'p, Picture>,
+    corner_px: [u32; 2],
+}
+
+/// A picture on a page: its layers in its view, beside the paths.
+struct Prepared<'p> {
+    picture: &'p Picture,
+    /// Its upper left corner on the page.
+    corner_px: [u32; 2],
+    view: View,
+    backdrop: VisibleBackdrop<'p>,
+    decorations: PlacedDecorations,
+}
+
+fn prepare<'p>(sheet: &'p [Placed<'p>]) -> Result<Vec<Prepared<'p>>, ComposeError> {
+    let prepare = |placed: &'p Placed<'p>| {
+        let picture = &*placed.picture;
+        let view = picture.view()?;
+        Ok(Prepared {
+            picture,
+            corner_px: placed.corner_px,
+            backdrop: picture
+                .backdrop
+                .visible(&picture.scene, &view, &picture.budget)?,
+            decorations: picture.place_decorations(&view),
+            view,
+        })
+    };
+    sheet.iter().map(prepare).collect()
+}
+
+impl Prepared<'_> {
+    fn first_stroke(&self) -> Option<Stroke> {
+        let Picture { scene, style, .. } = self.picture;
+        let path = *scene.draw_order().first()?;
+        let width = width_px(scene, path, &self.view, style);
+        Some(Stroke::new(scene.color(path).to_u32(), width))
+    }
+
+    /// Writes all layers over the background. Returns the number of paths in the view.
+    fn write(&self, page: &mut impl Page) -> io::Result<u64> {
+        let Picture { scene, style, .. } = self.picture;
+        let (view, decorations) = (&self.view, &self.decorations);
         let below = [&decorations.grid, &decorations.zones];
-        prepared.backdrop.write(below, view, style, page)?;
+        self.backdrop.write(below, view, style, page)?;
         let drawn = write_paths(scene, view, style, page)?;
-        for marks in [&self.overlay, &decorations.marks] {
+        for marks in [&self.picture.overlay, &decorations.marks] {
             write_draw_list(marks, "marks", page)?;
         }
         for (list, label) in &decorations.margin {
@@ -169,9 +217,25 @@ impl Picture {
     }
 }
 
-/// The layers of a picture in its view, beside the paths.
-struct Prepared<'p> {
-    view: View,
-    backdrop: VisibleBackdrop<'p>,
-    decorations: PlacedDecorations,
+/// The account of all parts of a page.
+fn report(format: VectorFormat, parts: Vec<Prepared<'_>>, drawn: Vec<u64>) -> Rendered {
+    let of_part = |(part, drawn): (Prepared<'_>, u64)| {
+        let mut report = Report::of(format.name(), &part.picture.scene, drawn);
+        report.notes.extend(part.decorations.notes);
+        Rendered {
+            view: part.view,
+            report,
+            method: MethodInfo {
+                name: format.name(),
+                summary: "Exact curves, rasterized by the program that shows them",
+                device: "none".to_owned(),
+            },
+            swept: part.backdrop.into_report(),
+            prepare_ms: 0.0,
+            render_ms: 0.0,
+            write_ms: 0.0,
+        }
+    };
+    let rendered: Vec<_> = parts.into_iter().zip(drawn).map(of_part).collect();
+    join(rendered)
 }

@@ -13,13 +13,21 @@ const DECIMALS: usize = 3;
 /// Decimals of factors. Derived: a page of 65,535 pixels is off by less than a pixel.
 pub(super) const FACTOR_DECIMALS: usize = 6;
 
+/// What is in effect, so that it is not selected again.
+#[derive(Clone, Default)]
+struct State {
+    /// Name of the graphics state.
+    name: String,
+    color: [String; 2],
+    width: String,
+}
+
 /// A content stream.
 pub(super) struct Content {
     out: ZlibEncoder<Vec<u8>>,
-    /// State that is in effect, so that it is not selected again.
-    state: String,
-    color: [String; 2],
-    width: String,
+    state: State,
+    /// The states to return to, outermost first.
+    saved: Vec<State>,
     /// End of the last segment of an open path.
     end: Option<Point<f64>>,
 }
@@ -28,9 +36,8 @@ impl Default for Content {
     fn default() -> Self {
         Self {
             out: ZlibEncoder::new(Vec::new(), Compression::default()),
-            state: String::new(),
-            color: Default::default(),
-            width: String::new(),
+            state: State::default(),
+            saved: Vec::new(),
             end: None,
         }
     }
@@ -48,6 +55,18 @@ impl Content {
         writeln!(self.out, "{text}")
     }
 
+    /// Saves the state, which [`Self::restore`] returns to.
+    pub(super) fn save(&mut self) -> io::Result<()> {
+        self.saved.push(self.state.clone());
+        self.operator("q")
+    }
+
+    /// Returns to the state that was saved last.
+    pub(super) fn restore(&mut self) -> io::Result<()> {
+        self.state = self.saved.pop().unwrap_or_default();
+        self.operator("Q")
+    }
+
     /// Writes an operator after its operands; a color only if it is another one.
     pub(super) fn numbers(&mut self, numbers: &[f64], operator: &str) -> io::Result<()> {
         let text = operands(numbers, FACTOR_DECIMALS) + operator;
@@ -56,7 +75,7 @@ impl Content {
             "rg" => Some(1),
             _ => None,
         };
-        if let Some(color) = color.map(|color| &mut self.color[color]) {
+        if let Some(color) = color.map(|color| &mut self.state.color[color]) {
             if *color == text {
                 return Ok(());
             }
@@ -67,8 +86,8 @@ impl Content {
 
     /// Selects a graphics state by its name.
     pub(super) fn state(&mut self, name: &str) -> io::Result<()> {
-        if self.state != name {
-            name.clone_into(&mut self.state);
+        if self.state.name != name {
+            name.clone_into(&mut self.state.name);
             write!(self.out, "/{name} gs ")?;
         }
         Ok(())
@@ -77,9 +96,9 @@ impl Content {
     /// Selects the width of lines.
     pub(super) fn width(&mut self, width: f64) -> io::Result<()> {
         let text = operands(&[width], DECIMALS) + "w";
-        if self.width != text {
+        if self.state.width != text {
             writeln!(self.out, "{text}")?;
-            self.width = text;
+            self.state.width = text;
         }
         Ok(())
     }

@@ -199,6 +199,18 @@ impl Page for PdfPage {
         }
         Ok(())
     }
+
+    fn begin_part(&mut self, corner_px: [u32; 2], size_px: [u32; 2]) -> io::Result<()> {
+        let ([x, y], [width, height]) = (corner_px.map(f64::from), size_px.map(f64::from));
+        let content = self.content();
+        content.save()?;
+        content.numbers(&[1.0, 0.0, 0.0, 1.0, x, y], "cm")?;
+        content.numbers(&[0.0, 0.0, width, height], "re W n")
+    }
+
+    fn end_part(&mut self) -> io::Result<()> {
+        self.content().restore()
+    }
 }
 
 #[cfg(test)]
@@ -289,6 +301,29 @@ mod tests {
         let area = "0 0 m 9 0 l 9 9 l h 4 2 m 6 4 l 6 2 l h f";
         assert!(content.contains(area), "{content}");
         assert!(content.matches(" c").count() > 4, "{content}");
+    }
+
+    #[test]
+    fn parts_have_their_own_origin_and_end_with_the_state_before() {
+        let mut page = page();
+        let corners = [p(1.0, 2.0), p(9.0, 9.0)];
+        page.rectangle(corners, Rgba::WHITE).unwrap();
+        page.begin_part([50, 0], [50, 100]).unwrap();
+        page.rectangle(corners, Rgba::BLACK).unwrap();
+        page.end_part().unwrap();
+        page.rectangle(corners, Rgba::WHITE).unwrap();
+        page.rectangle(corners, Rgba::BLACK).unwrap();
+        let content = streams(&bytes(page)).remove(0);
+        let after_part = content.split("Q\n").nth(1).unwrap();
+        assert!(
+            content.contains("q\n1 0 0 1 50 0 cm\n0 0 50 100 re W n\n"),
+            "{content}"
+        );
+        // White is still selected, black is not.
+        assert!(
+            after_part.starts_with("1 2 8 7 re\nf\n0 0 0 rg"),
+            "{content}"
+        );
     }
 
     #[test]

@@ -192,6 +192,27 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         writeln!(self.out, "</g>")
     }
 
+    /// Begins a viewport with its own origin, which clips what it holds, given its upper left
+    /// corner and its size.
+    ///
+    /// # Errors
+    /// When writing fails.
+    pub fn begin_viewport(&mut self, [x, y]: [u32; 2], size: [u32; 2]) -> io::Result<()> {
+        let [width, height] = size;
+        writeln!(
+            self.out,
+            r#"<svg x="{x}" y="{y}" width="{width}" height="{height}">"#
+        )
+    }
+
+    /// Ends the innermost viewport.
+    ///
+    /// # Errors
+    /// When writing fails.
+    pub fn end_viewport(&mut self) -> io::Result<()> {
+        writeln!(self.out, "</svg>")
+    }
+
     /// Writes a rectangle `[x, y, width, height]` filled with a color 0xRRGGBBAA.
     ///
     /// # Errors

@@ -140,9 +140,35 @@ fn levels_stand_side_by_side() {
         half(0),
         half(400)
     );
-    let svg = render(&folder.path().join("each.svg"), &["--level", "each"]);
-    assert_eq!(svg.status.code(), Some(2));
-    assert!(stderr(&svg).contains("PNG file"), "{}", stderr(&svg));
+    // Their curves are those of the site, each once.
+    let svg = folder.path().join("each.svg");
+    let report = json(&render(&svg, &args), "render");
+    assert_eq!(report["paths"]["drawn"], report["paths"]["total"]);
+    let info = json(&run(["info", text(&svg), "--json"]), "info");
+    assert_eq!(info["paths"], report["paths"]["total"]);
+    let pdf = render(
+        Path::new("-"),
+        &["--level", "each", "--to", "pdf", "--size", "80x30"],
+    );
+    assert!(pdf.stdout.starts_with(b"%PDF"), "{}", stderr(&pdf));
+    let placed = render(&each, &["--level", "each", "--world-file"]);
+    assert_eq!(placed.status.code(), Some(2));
+    assert!(stderr(&placed).contains("one view"), "{}", stderr(&placed));
+}
+
+#[test]
+fn pictures_have_a_size_on_paper() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.png");
+    // 96 dpi are 3780 pixels per meter; a picture of twice the height has twice as many.
+    for (size, px_per_m) in [("1920x1080", 3780), ("3840x2160", 7559)] {
+        assert!(render(&file, &["--size", size]).status.success());
+        let bytes = std::io::BufReader::new(fs::File::open(&file).unwrap());
+        let info = png::Decoder::new(bytes).read_info().unwrap();
+        let printed = info.info().pixel_dims.expect("a size on paper");
+        assert_eq!((printed.xppu, printed.yppu), (px_per_m, px_per_m), "{size}");
+        assert!(matches!(printed.unit, png::Unit::Meter));
+    }
 }
 
 #[test]

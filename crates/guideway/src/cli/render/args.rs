@@ -8,9 +8,10 @@ use guideway::layout::{Layout, UserError};
 use guideway::scene::{Budget, ColorBy, Scene, SceneOptions, Shading, Style};
 
 use super::decoration_args::DecorationArgs;
-use super::style_args::{StyleArgs, suitable_widths};
+use super::style_args::StyleArgs;
 use super::target::Target;
 use super::view_args::ViewArgs;
+use super::widths::suitable_widths;
 use crate::cli::error::usage_error;
 use crate::cli::input::{Input, PLACEMENT_HELP, check_output};
 use crate::cli::picture_file::{PictureFormat, default_name};
@@ -194,13 +195,17 @@ impl Args {
         picture
     }
 
-    /// Suits the widths of lines to a layout, unless they are given.
-    pub(super) fn suit_widths(&self, layout: &Layout, options: &mut RenderOptions) {
-        let is_all_shown = options.viewport.px_per_m.is_none();
+    /// Suits the widths of lines to what a picture shows, unless they are given.
+    ///
+    /// # Errors
+    /// When the view is out of range.
+    pub(super) fn suit_widths(&self, picture: &mut Picture) -> Result<(), UserError> {
         if !self.decorations.plain && !self.style.has_widths() {
-            let size = options.viewport.size;
-            options.style.line_rule = suitable_widths(layout, is_all_shown, size);
+            let is_all_shown = picture.viewport.px_per_m.is_none();
+            let layout = picture.scene.layout();
+            picture.style.line_rule = suitable_widths(layout, &picture.view()?, is_all_shown);
         }
+        Ok(())
     }
 
     /// Returns `true` if the picture may show density where its paths are crowded: nothing says

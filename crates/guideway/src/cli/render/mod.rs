@@ -1,9 +1,10 @@
-//! `guideway render`: layout files as a picture, PNG or SVG.
+//! `guideway render`: layout files as a picture, PNG, SVG or PDF.
 //!
 //! | module | purpose |
 //! |---|---|
 //! | `args` | files, output and the groups of options below |
 //! | `view_args`, `style_args`, `decoration_args` | one group of options each |
+//! | `widths` | widths of lines that suit what a picture shows |
 //! | `target` | the output: a file or standard output |
 //! | `view_notes` | notes on what a view does not show |
 //! | `report` | the report as text and JSON |
@@ -17,6 +18,7 @@ mod style_args;
 mod target;
 mod view_args;
 mod view_notes;
+mod widths;
 
 pub(crate) use args::Args;
 pub(crate) use run::run;

@@ -13,7 +13,7 @@ use super::args::Args;
 use super::report::{self, Shown, Times};
 use super::target::Target;
 use super::view_notes::view_notes;
-use crate::cli::error::Exit;
+use crate::cli::error::{Exit, usage_error};
 use crate::cli::output::Output;
 use crate::cli::progress_bar::plan;
 use crate::cli::{floor_plan, input, output, stdout};
@@ -22,15 +22,6 @@ use crate::cli::{floor_plan, input, output, stdout};
 enum Renderer {
     Curves(VectorFormat),
     Pixels(Box<dyn Method>),
-}
-
-impl Renderer {
-    fn method(&self) -> Option<&dyn Method> {
-        match self {
-            Self::Curves(_) => None,
-            Self::Pixels(method) => Some(&**method),
-        }
-    }
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
@@ -58,18 +49,25 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let progress = out.progress("preparing the scene");
     let is_each = args.is_each_level(&layout);
+    if is_each && world_file.is_some() {
+        return Err(usage_error(
+            "--world-file places one view, and --level each has one per level",
+            "Omit --world-file, or choose one level",
+        ));
+    }
     if is_each {
         options.scene.level = None;
     }
-    args.suit_widths(&layout, &mut options);
     let layout = Arc::new(layout);
     let scene = Arc::new(Scene::new(Arc::clone(&layout), &options.scene)?);
-    let parts = match is_each {
+    let levels = match is_each {
         true => level_parts(&layout, &options.scene)?,
         false => Vec::new(),
     };
     let scene_ms = progress.finish();
     let mut picture = args.picture(&options, Arc::clone(&scene), floor_plan);
+    picture.levels = levels;
+    args.suit_widths(&mut picture)?;
     let route = args.decorations.route.as_ref();
     let route = route.map(|ends| ends.find(scene.layout())).transpose()?;
     picture.decorations.route = route.as_ref().map(|route| route.mark.clone());
@@ -89,20 +87,17 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     }
     let started = Instant::now();
     let mut rendered = match &renderer {
-        _ if !parts.is_empty() => {
-            target.write_levels(&picture, &parts, renderer.method(), &progress)?
-        }
         Renderer::Curves(format) => target.write_vector(&picture, *format)?,
         Renderer::Pixels(method) => target.write_png(&picture, &**method, &progress)?,
     };
-    if renderer.method().is_none() {
+    if let Renderer::Curves(_) = renderer {
         rendered.write_ms = elapsed_ms(started);
     }
     drop(progress);
     if let Some(file) = &world_file {
         output::save(file, world_file_of(&rendered.view).as_bytes())?;
     }
-    let has_level = options.scene.level.is_some() || !parts.is_empty();
+    let has_level = options.scene.level.is_some() || !picture.levels.is_empty();
     notes.extend(view_notes(&scene, &rendered, has_level));
     rendered.report.notes.extend(notes);
     let times = Times {

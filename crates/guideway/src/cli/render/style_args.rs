@@ -1,9 +1,9 @@
 //! Options of `render` for line widths, colors and shading.
 
 use clap::ValueEnum;
-use guideway::layout::{Layout, UserError};
+use guideway::layout::UserError;
 use guideway::scene::density::ToneMap;
-use guideway::scene::{FrameSize, LineRule, NumberColors, Palette, Rgba, Shading, Style};
+use guideway::scene::{LineRule, NumberColors, Palette, Rgba, Shading, Style};
 
 use crate::cli::error::usage_error;
 use crate::cli::values;
@@ -11,8 +11,8 @@ use crate::cli::values;
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Style")]
 pub(super) struct StyleArgs {
-    /// Width of paths without a width in the file [default: a hairline in drawings, 2 pixels where
-    /// all is shown, else 0.1]
+    /// Width of paths without a width in the file [default: a hairline in drawings and where paths
+    /// would cover each other, 2 pixels where all is shown, else 0.1]
     #[arg(
         long,
         value_name = "METERS",
@@ -173,47 +173,5 @@ impl StyleArgs {
                 Some(Tone::Equalized) => ToneMap::Equalized,
             })),
         }
-    }
-}
-
-/// The widths that suit what a layout is: hairlines for a drawing, thin lines for ways where all of
-/// them are shown, else the true width. Lines with a width of their own keep it.
-pub(super) fn suitable_widths(layout: &Layout, is_all_shown: bool, size: FrameSize) -> LineRule {
-    /// Shorter side of a picture whose lines have these widths, in pixels; larger ones have wider
-    /// lines.
-    const SIDE_PX: f64 = 1080.0;
-    const HAIRLINE_PX: f64 = 1.0;
-    const WAY_PX: f64 = 2.0;
-    let min_px = match (layout.is_drawing(), is_all_shown) {
-        (true, _) => HAIRLINE_PX,
-        (false, true) => WAY_PX,
-        (false, false) => return LineRule::default(),
-    };
-    let side_px = f64::from(size.width().min(size.height()));
-    let rule = LineRule::World {
-        width_m: 0.0,
-        min_px,
-        max_px: 12.0,
-    };
-    rule.scaled((side_px / SIDE_PX).max(1.0))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn widths_suit_drawings_and_ways() {
-        let radius_px = |format: &str, is_all_shown, width, height| {
-            let mut layout = Layout::default();
-            layout.provenance.format = format.to_owned();
-            let size = FrameSize::new(width, height).unwrap();
-            suitable_widths(&layout, is_all_shown, size).radius_px(None, 50.0)
-        };
-        assert_eq!(radius_px("DXF", true, 1920, 1080), 0.5);
-        assert_eq!(radius_px("DXF", false, 300, 300), 0.5);
-        assert_eq!(radius_px("LIF", true, 1920, 1080), 1.0);
-        assert_eq!(radius_px("LIF", true, 6000, 4320), 4.0);
-        assert_eq!(radius_px("LIF", false, 1920, 1080), 2.5);
     }
 }

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use guideway::compose::{ComposeError, LevelPart, Picture, Rendered, VectorFormat};
+use guideway::compose::{ComposeError, Picture, Rendered, VectorFormat};
 use guideway::formats::Progress;
 use guideway::layout::UserError;
 use guideway::scene::Method;
 use guideway::write_png_by;
 
-use crate::cli::error::usage_error;
 use crate::cli::output::Output;
 use crate::cli::picture_file::PictureFormat;
 use crate::cli::stdout::{self, Stdout};
@@ -54,9 +53,9 @@ impl<'a> Target<'a> {
         if let Some(path) = self.file {
             return picture.save_png(method, path, progress);
         }
-        let (size, texts) = (picture.viewport.size, picture.png_texts()?);
+        let (size, header) = (picture.viewport.size, picture.png_header()?);
         to_stdout(|stdout| {
-            write_png_by(stdout, size, &texts, failed, |sink| {
+            write_png_by(stdout, size, &header, failed, |sink| {
                 picture.render(method, progress, sink)
             })
         })
@@ -71,28 +70,6 @@ impl<'a> Target<'a> {
         match self.file {
             Some(path) => picture.save_vector(format, path),
             None => to_stdout(|stdout| picture.write_vector(format, stdout, failed)),
-        }
-    }
-
-    /// Renders levels side by side as PNG.
-    ///
-    /// # Errors
-    /// When the output is no PNG file.
-    pub(super) fn write_levels(
-        &self,
-        picture: &Picture,
-        parts: &[LevelPart],
-        method: Option<&dyn Method>,
-        progress: &dyn Progress,
-    ) -> Result<Rendered, UserError> {
-        match (self.file, method) {
-            (Some(path), Some(method)) => {
-                Ok(picture.save_levels_png(parts, method, path, progress)?)
-            }
-            _ => Err(usage_error(
-                "--level each writes a PNG file",
-                "Name one, such as `-o levels.png`, or choose one level",
-            )),
         }
     }
 }

@@ -52,7 +52,7 @@ fn hidden_levels(layout: &Layout) -> Option<String> {
     let names = drawn.iter().map(|(level, _)| level.name_or_id());
     let names: Vec<String> = names.map(|name| shown_text(name).into_owned()).collect();
     Some(format!(
-        "levels lie over each other: {}; `--level NAME` draws one",
+        "levels lie over each other: {}; `--level NAME` draws one, `--level each` all of them",
         names.join(", ")
     ))
 }
