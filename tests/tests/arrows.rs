@@ -111,6 +111,7 @@ const RESTRICTED: &[(&str, &str)] = &[
         "serde_json",
         "guideway-formats guideway-envelope guideway guideway-tests",
     ),
+    ("anstream", "guideway"),
     ("clap", "guideway"),
     ("indicatif", "guideway"),
     (

@@ -6,12 +6,13 @@
 //! | `app` | parses arguments, dispatches to a subcommand, exits |
 //! | `input`, `floor_plan`, `envelope`, `values`, `limits` | read arguments and files |
 //! | `picture_file` | names of pictures |
-//! | `output`, `stdout`, `text`, `progress_bar`, `error`, `process` | reports, errors, exit codes, threads and signals |
+//! | `output`, `stdout`, `text`, `colors`, `progress_bar`, `error`, `process` | reports, errors, exit codes, threads and signals |
 //! | all others | one subcommand each |
 
 mod app;
 mod bench;
 mod check;
+mod colors;
 mod convert;
 mod default_command;
 mod demo;

@@ -8,6 +8,7 @@ use guideway::{SaveError, replace_file};
 use serde::Serialize;
 use serde_json::json;
 
+use super::colors::paint;
 use super::error::json_error;
 use super::progress_bar::ProgressBar;
 
@@ -57,12 +58,30 @@ impl Output {
         body: &T,
         text: impl FnOnce() -> String,
     ) -> Result<(), UserError> {
+        self.report_to(None, name, body, text)
+    }
+
+    /// Saves a report in a file, in the form in which [`Self::report`] prints it; without a file,
+    /// prints it.
+    pub(crate) fn report_to<T: Serialize>(
+        self,
+        file: Option<&Path>,
+        name: &str,
+        body: &T,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), UserError> {
+        if let Some(file) = file {
+            return match self.json {
+                true => save_report(file, name, REPORT_VERSION, body),
+                false => save(file, shown_lines(&text()).as_bytes()),
+            };
+        }
         if self.json {
             print(&envelope(name, REPORT_VERSION, body)?)
         } else if self.quiet {
             Ok(())
         } else {
-            print(shown_lines(&text()).as_bytes())
+            print_for_people(&shown_lines(&text()))
         }
     }
 
@@ -70,7 +89,7 @@ impl Output {
     pub(crate) fn note(self, text: &str) {
         if !self.quiet && !self.json {
             // The result does not depend on a note that nobody can read.
-            let _ = writeln!(io::stderr(), "{}", shown_lines(text));
+            let _ = writeln!(anstream::stderr(), "{}", paint(&shown_lines(text)));
         }
     }
 
@@ -89,7 +108,8 @@ impl Output {
             }
         } else {
             let (message, remedy) = (shown_lines(message), shown_lines(remedy));
-            let _ = writeln!(io::stderr(), "error: {message}\nhint: {remedy}");
+            let text = paint(&format!("error: {message}\nhint: {remedy}"));
+            let _ = writeln!(anstream::stderr(), "{text}");
         }
     }
 }
@@ -131,7 +151,16 @@ pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), UserError> {
 
 /// Writes to standard output. A closed pipe (`| head`) is not an error.
 pub(crate) fn print(bytes: &[u8]) -> Result<(), UserError> {
-    let mut stdout = io::stdout().lock();
+    print_to(&mut io::stdout().lock(), bytes)
+}
+
+/// Writes text to standard output, in colors on a terminal, unless `NO_COLOR` is set, or wherever
+/// `CLICOLOR_FORCE` is.
+fn print_for_people(text: &str) -> Result<(), UserError> {
+    print_to(&mut anstream::stdout().lock(), paint(text).as_bytes())
+}
+
+fn print_to(stdout: &mut impl Write, bytes: &[u8]) -> Result<(), UserError> {
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(UserError::new(
             "stdout",

@@ -53,6 +53,25 @@ fn on_file(args: &[&str], file: &PathBuf) -> std::process::Output {
 }
 
 #[test]
+fn severities_have_colors_where_they_are_forced() {
+    let check = |variables: &[(&str, &str)]| {
+        let mut all = command();
+        all.args(["check", "--show", "1"]).arg(site());
+        all.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
+        let output = all.envs(variables.iter().copied()).output().unwrap();
+        stdout(&output)
+    };
+    let (plain, forced) = (check(&[]), check(&[("CLICOLOR_FORCE", "1")]));
+    assert!(
+        !plain.contains('\u{1b}') && plain.contains("info: "),
+        "{plain}"
+    );
+    assert!(forced.contains("\u{1b}[1;34minfo\u{1b}[0m: "), "{forced}");
+    let both = [("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")];
+    assert!(!check(&both).contains('\u{1b}'));
+}
+
+#[test]
 fn info_summarizes_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |_| {});
