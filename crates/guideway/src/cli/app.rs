@@ -66,7 +66,7 @@ enum Command {
     /// Summarize the content of layout files
     Info(info::Args),
     /// Find mistakes in layout files
-    Check(check::Args),
+    Check(Box<check::Args>),
     /// List what changed from one layout to another
     Diff(diff::Args),
     /// Write a layout in another format

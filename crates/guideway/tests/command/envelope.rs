@@ -175,6 +175,32 @@ fn reports_paths_and_walls_below_the_clearance() {
 }
 
 #[test]
+fn layers_of_walls_are_found_whatever_their_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = folder.path().join("plan.dxf");
+    let site = site();
+    let converted = guideway(&["convert", text(&site), text(&plan)]);
+    assert!(converted.status.success(), "{}", stderr(&converted));
+    let check = |layer: &str| {
+        let vehicle = ["--clearance", "0", "--envelope", "1x0.5", "-q"];
+        let walls = ["--floor-plan", text(&plan), "--wall-layer", layer];
+        let all = [&["check", text(&site)][..], &vehicle, &walls].concat();
+        guideway(&all)
+    };
+    for known in ["mezzanine", "MEZZANINE", "mezz*"] {
+        let output = check(known);
+        assert!(output.status.code() < Some(2), "{}", stderr(&output));
+    }
+    let output = check("mezanine");
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(
+        said.contains("mean `mezzanine`? The layers are hall, mezzanine"),
+        "{said}"
+    );
+}
+
+#[test]
 fn draws_and_counts_polygons_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let (plant, picture) = (

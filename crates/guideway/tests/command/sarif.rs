@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
-use crate::support::{run, site, stderr};
+use crate::support::{command, run, site, stderr};
 
 const SCHEMA: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
@@ -58,6 +58,35 @@ fn bad_file(folder: &Path, file: &str) -> PathBuf {
     let path = folder.join(file.replace('/', "-"));
     fs::write(&path, guideway_bad_files::input(file).unwrap()).unwrap();
     path
+}
+
+#[test]
+fn reports_go_to_files_in_each_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("report");
+    let saved = |format: &[&str]| {
+        let output = command()
+            .arg("check")
+            .arg(site())
+            .args(format)
+            .arg("-o")
+            .arg(&file)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(output.stdout.is_empty());
+        fs::read_to_string(&file).unwrap()
+    };
+    assert!(saved(&["--format", "sarif"]).contains("\"2.1.0\""));
+    assert!(saved(&["--json"]).contains("\"report\": \"check\""));
+    assert!(saved(&["-q"]).contains("site.lif.json: 326 paths, "));
+    let over = run([
+        "check".as_ref(),
+        site().as_os_str(),
+        "-o".as_ref(),
+        site().as_os_str(),
+    ]);
+    assert_eq!(over.status.code(), Some(2), "{}", stderr(&over));
 }
 
 #[test]
@@ -124,7 +153,7 @@ fn logs_have_what_code_scanning_asks_for() {
     let text = format!("{{\"type\": \"FeatureCollection\", \"features\": [{features}]}}");
     fs::write(folder.path().join(name), text).unwrap();
     fs::write(folder.path().join("broken.json"), "{\n \"layouts\": [\n}").unwrap();
-    let output = crate::support::command()
+    let output = command()
         .current_dir(folder.path())
         .args(["check", "--format", "sarif", "--baseline", "none.json"])
         .args(["broken.json", name])
@@ -137,7 +166,7 @@ fn logs_have_what_code_scanning_asks_for() {
     )
     .unwrap();
     // With a baseline, more findings are kept than a log may have.
-    let output = crate::support::command()
+    let output = command()
         .current_dir(folder.path())
         .args(["check", "--format", "sarif", "--baseline", "none.json"])
         .args(["broken.json", name])

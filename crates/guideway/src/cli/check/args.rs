@@ -1,6 +1,6 @@
 //! Arguments of `check`, and the rules that result from them and from `guideway.toml`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use guideway::layout::{CheckOptions, Code, Limits};
@@ -11,6 +11,7 @@ use super::clearance::ClearanceArgs;
 use super::codes::{self, FailOn};
 use super::config::Rules;
 use crate::cli::input::{self, Input};
+use crate::cli::stdout::is_stdout;
 use crate::cli::values;
 
 #[derive(Debug, clap::Args)]
@@ -29,6 +30,9 @@ pub(crate) struct Args {
     /// Form of the report: a table, JSON (the same as --json), or SARIF 2.1.0 for code review tools
     #[arg(long, default_value = "table")]
     pub(super) format: Format,
+    /// File for the report, in place of standard output
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
     /// Least severity of findings that make the exit code 1 [default: error]
     #[arg(long, value_name = "LEVEL")]
     fail_on: Option<FailOn>,
@@ -101,6 +105,11 @@ pub(super) enum Format {
 }
 
 impl Args {
+    /// The file for the report; `None` for standard output.
+    pub(super) fn report_file(&self) -> Option<&Path> {
+        self.output.as_deref().filter(|path| !is_stdout(path))
+    }
+
     /// Overrides the rules of a file. `--only` replaces what the rules select and ignore.
     pub(super) fn override_rules(&self, mut rules: Rules) -> Rules {
         if !self.only.is_empty() {

@@ -1,9 +1,12 @@
 //! `--clearance`: finds swept areas too near to each other or to the walls of a floor plan.
 
+use std::collections::BTreeSet;
+
 use guideway::envelope::{
     ClearanceOptions, ClearanceReport, ClearanceWork, EnvelopeSource, Walls, check_clearance,
 };
-use guideway::layout::{Diagnostics, Layout, UserError, shown_path, shown_text};
+use guideway::layout::{Diagnostics, Layout, UserError, near_names, shown_path, shown_text};
+use guideway::network::LayerRule;
 use serde_json::{Value, json};
 
 use super::findings::CheckedFile;
@@ -87,21 +90,40 @@ impl ClearanceArgs {
         let layout = floor_plan::read_walls(plan, out)?;
         let layers = layout.paths.attributes.get(LAYER);
         let layer = |path: usize| layers?.values.get(path).map(|value| value.to_string());
-        let is_wall = |path: usize| {
-            let is_named = |layer: String| self.wall_layer.contains(&layer);
-            self.wall_layer.is_empty() || layer(path).is_some_and(is_named)
-        };
-        for name in &self.wall_layer {
-            let has = |path: usize| layer(path).as_ref() == Some(name);
-            if !(0..layout.paths.len()).any(has) {
-                return Err(usage_error(
-                    format!("{}: no path is on layer `{name}`", shown_path(&plan.path)),
-                    "Name a value of column `layer`; `guideway info` lists them",
-                ));
+        let known: BTreeSet<String> = (0..layout.paths.len()).filter_map(layer).collect();
+        let rules = self.wall_layer.iter().map(|name| LayerRule {
+            name: name.clone(),
+            ..LayerRule::default()
+        });
+        let rules: Vec<LayerRule> = rules.collect();
+        for rule in &rules {
+            if !known.iter().any(|layer| rule.fits(layer)) {
+                return Err(unknown_layer(&rule.name, plan, &known));
             }
         }
+        let is_wall = |path: usize| {
+            let is_named = |layer: String| rules.iter().any(|rule| rule.fits(&layer));
+            rules.is_empty() || layer(path).is_some_and(is_named)
+        };
         Ok(Walls::new(&layout, is_wall))
     }
+}
+
+/// No line of a floor plan is on a layer.
+fn unknown_layer(name: &str, plan: &Input, known: &BTreeSet<String>) -> UserError {
+    let near = near_names(name, known.iter().map(String::as_str));
+    /// Layers that the hint names at most.
+    const MOST: usize = 30;
+    let known: Vec<&str> = known.iter().take(MOST).map(String::as_str).collect();
+    let hint = match (near.first(), &known[..]) {
+        (_, []) => "The file has no layers: omit --wall-layer".to_owned(),
+        (Some(near), _) => format!("Did you mean `{near}`? The layers are {}", known.join(", ")),
+        (None, _) => format!("The layers are {}", known.join(", ")),
+    };
+    usage_error(
+        format!("{}: no path is on layer `{name}`", shown_path(&plan.path)),
+        hint,
+    )
 }
 
 impl ClearanceCheck {

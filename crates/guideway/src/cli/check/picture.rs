@@ -140,7 +140,8 @@ fn spots(layout: &Layout, located: &[(Element, Severity, &'static str)], view: &
     spots
 }
 
-/// The middle of a path, or the position of a node or station.
+/// The middle of a path, or the position of a node or station; for a station without one, that of
+/// its first node.
 fn position(layout: &Layout, element: Element) -> Option<Point<f64>> {
     match element {
         Element::Path(row) => {
@@ -148,7 +149,7 @@ fn position(layout: &Layout, element: Element) -> Option<Point<f64>> {
             path.point_at_m(path.length_m() / 2.0)
         }
         Element::Node(row) => Some(layout.nodes.position_m(row)),
-        Element::Station(row) => layout.stations.position_m(row),
+        Element::Station(row) => layout.station_position_m(row),
     }
 }
 
@@ -204,4 +205,25 @@ fn rings(spots: &[Spot], view: &View) -> DrawList {
         }
     }
     list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_station_without_a_position_has_its_ring_at_its_node() {
+        let mut layout = Layout::default();
+        let at = Point::new(3.0, 4.0);
+        let node = layout.nodes.push("a", at, None);
+        let on_node = layout.stations.push("dock", None, vec![node], None);
+        let lost = layout.stations.push("lost", None, Vec::new(), None);
+        let at_own = Point::new(5.0, 4.0);
+        let own = layout.stations.push("own", Some(at_own), vec![node], None);
+        let position = |row| position(&layout, Element::Station(row));
+        assert_eq!(
+            [on_node, lost, own].map(position),
+            [Some(at), None, Some(at_own)]
+        );
+    }
 }

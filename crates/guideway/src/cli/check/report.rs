@@ -51,7 +51,7 @@ pub(super) fn report(
         "clearance": clearance::json(&args.clearance, files),
         "ms": { "read": times.read_ms, "check": times.check_ms, "total": total_ms },
     });
-    out.report("check", &body, || {
+    out.report_to(args.report_file(), "check", &body, || {
         let tables = files.iter().map(|file| table::text(file, args.show));
         let mut text: String = tables.collect();
         if files.len() > 1 {

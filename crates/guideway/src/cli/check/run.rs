@@ -13,7 +13,7 @@ use super::report::{Times, report};
 use super::{picture, sarif};
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input;
-use crate::cli::output::{Output, print};
+use crate::cli::output::{Output, print, save};
 use crate::cli::picture_file::PictureFormat;
 use crate::cli::progress_bar::plan;
 
@@ -28,7 +28,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         .iter()
         .try_for_each(|input| input.check_keys())?;
     let inputs = || args.inputs.iter().map(|input| input.path.as_path());
-    if let Some(file) = &args.write_baseline {
+    let written = args.write_baseline.as_deref();
+    for file in args.report_file().into_iter().chain(written) {
         input::check_output(inputs(), file)?;
     }
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
@@ -65,7 +66,13 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     }
     let exit = exit(&files);
     match args.format {
-        Format::Sarif => print(&sarif::bytes(&files, exit)?)?,
+        Format::Sarif => {
+            let bytes = sarif::bytes(&files, exit)?;
+            match args.report_file() {
+                Some(file) => save(file, &bytes)?,
+                None => print(&bytes)?,
+            }
+        }
         Format::Json => report(args, &Output::new(true, false), &files, &times)?,
         Format::Table => report(args, out, &files, &times)?,
     }

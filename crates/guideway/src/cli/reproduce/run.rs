@@ -19,15 +19,21 @@ use crate::cli::{process, values};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     guideway reproduce --quick\n  \
-    guideway reproduce --out report --methods grid,grid+scan+radius,tessellation\n  \
-    guideway reproduce --continue --out report --minutes 20\n  \
-    guideway reproduce --from report/run.json --out again")]
+    guideway reproduce -o report --methods grid,grid+scan+radius,tessellation\n  \
+    guideway reproduce --continue -o report --minutes 20\n  \
+    guideway reproduce --from report/run.json -o again")]
 pub(crate) struct Args {
     /// Measure smaller datasets: about ten minutes, even with a software graphics device
     #[arg(long)]
     quick: bool,
     /// Folder for the page, the tables and the run file
-    #[arg(long, value_name = "DIR", default_value = "reproduction")]
+    #[arg(
+        long = "output",
+        short = 'o',
+        alias = "out",
+        value_name = "DIR",
+        default_value = "reproduction"
+    )]
     out: PathBuf,
     /// Methods with their options [default: those of the thesis with their variants, `gpu` and
     /// `cpu`]
