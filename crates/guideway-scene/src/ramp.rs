@@ -7,8 +7,8 @@ use crate::color::Rgba;
 const CONTRAST: f64 = 3.0;
 /// Colors of a ramp. Derived: neighbors differ by less than an eye can tell.
 pub(crate) const COLORS: usize = 65;
-/// Least share of a palette that a ramp shows: on a background of medium gray, nothing has the
-/// contrast.
+/// Least share of a palette that a ramp shows as it is: on a background of medium gray, no longer
+/// part has the contrast.
 const LEAST_SHARE: f64 = 0.25;
 /// Most ticks beside a ramp.
 const MOST_TICKS: f64 = 8.0;
@@ -112,7 +112,8 @@ pub(crate) fn between(count: usize, color: impl Fn(usize) -> Rgba, share: f64) -
 pub(crate) struct Ramp(Vec<Rgba>);
 
 impl Ramp {
-    /// The longest part of a palette that stands out from a background.
+    /// The longest part of a palette that stands out from a background. If all parts are short, the
+    /// whole palette, mixed with black or white until it stands out.
     pub(crate) fn new(by: &NumberColors) -> Self {
         let paper = match by.background.a {
             0 => Rgba::WHITE,
@@ -135,15 +136,18 @@ impl Ramp {
                 _ => {}
             }
         }
-        let (low, high) = match best.len() as f64 {
-            steps if steps >= LEAST_SHARE * STEPS as f64 => {
-                (share(best.start), share(best.end - 1))
-            }
-            _ => (0.0, 1.0),
+        let is_short = (best.len() as f64) < LEAST_SHARE * STEPS as f64;
+        let (low, high) = match is_short {
+            true => (0.0, 1.0),
+            false => (share(best.start), share(best.end - 1)),
         };
         let color = |i: usize| {
-            by.palette
-                .at(low + (high - low) * i as f64 / (COLORS - 1) as f64)
+            let along = i as f64 / (COLORS - 1) as f64;
+            let color = by.palette.at(low + (high - low) * along);
+            match is_short {
+                true => standing_out(color, paper),
+                false => color,
+            }
         };
         Self((0..COLORS).map(color).collect())
     }
@@ -157,6 +161,21 @@ impl Ramp {
     pub(crate) fn into_colors(self) -> Vec<Rgba> {
         self.0
     }
+}
+
+/// A color, mixed with black or white, whichever is farther from the paper, until it stands out.
+fn standing_out(color: Rgba, paper: Rgba) -> Rgba {
+    const STEPS: u32 = 256;
+    let (black, white) = (Rgba::BLACK, Rgba::WHITE);
+    let is_dark = contrast(black, paper) >= contrast(white, paper);
+    let end = if is_dark { black } else { white };
+    let mixed = (0..=STEPS).map(|step| color.lerp(end, f64::from(step) / f64::from(STEPS)));
+    // All on one side of the paper, so that no color between two of them is that of the paper.
+    let mut fitting = mixed.filter(|mixed| {
+        let is_beyond = (luminance(*mixed) < luminance(paper)) == is_dark;
+        is_beyond && contrast(*mixed, paper) >= CONTRAST
+    });
+    fitting.next().unwrap_or(end)
 }
 
 /// Contrast of two opaque colors, 1 to 21 (WCAG 2.2).
@@ -242,15 +261,23 @@ mod tests {
     }
 
     #[test]
-    fn a_background_without_contrast_gets_the_whole_palette() {
-        let background = Rgba::opaque(119, 119, 119);
-        let gray = NumberColors {
-            palette: Palette::Warm,
-            background,
-            range: None,
-        };
-        assert_eq!(Ramp::new(&gray).at(0.0), Palette::Warm.at(0.0));
-        assert_eq!(Ramp::new(&gray).at(9.0), Palette::Warm.at(1.0));
+    fn a_palette_without_contrast_is_mixed_until_it_stands_out() {
+        let [gray, navy] = [Rgba::opaque(119, 119, 119), Rgba::opaque(30, 58, 138)];
+        for background in [gray, navy, Rgba::opaque(128, 128, 128)] {
+            for palette in Palette::ALL {
+                let ramp = Ramp::new(&NumberColors {
+                    palette,
+                    background,
+                    range: None,
+                });
+                for step in 0..=100 {
+                    let color = ramp.at(f64::from(step) / 100.0);
+                    let of = contrast(color, background);
+                    assert!(of >= 2.9, "{palette:?} on {background}, {step}: {of}");
+                }
+                assert_ne!(ramp.at(0.0), ramp.at(1.0), "{palette:?} on {background}");
+            }
+        }
     }
 
     #[test]
