@@ -1,13 +1,11 @@
 //! Several levels side by side: one picture per level, at one scale, in a grid.
 
 use std::sync::Arc;
-use std::time::Instant;
 
-use guideway_formats::Progress;
-use guideway_scene::{Frame, FrameSize, Method, RenderError, elapsed_ms};
+use guideway_scene::{Frame, FrameSize, RenderError};
 use guideway_spline::{Bounds, Point};
 
-use crate::{ComposeError, LevelPart, Picture, Rendered, StripSink};
+use crate::{LevelPart, Picture};
 
 /// The columns and rows of a grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,93 +76,10 @@ impl Picture {
         };
         Ok((0..).zip(&self.levels).map(of_level).collect())
     }
-
-    /// Renders the levels into a frame that holds the whole picture, and hands it to `sink`.
-    ///
-    /// # Errors
-    /// See [`Picture::render`].
-    pub(crate) fn render_levels(
-        &self,
-        method: &dyn Method,
-        progress: &dyn Progress,
-        sink: StripSink<'_>,
-    ) -> Result<Rendered, ComposeError> {
-        let size = self.viewport.size;
-        let needed_bytes = 4 * size.pixels() as u64;
-        if needed_bytes > self.budget.memory_bytes {
-            let error = RenderError::Budget {
-                method: method.info().name,
-                what: "levels side by side",
-                needed_bytes,
-                budget_bytes: self.budget.memory_bytes,
-            };
-            return Err(error.into());
-        }
-        let mut frame = Frame::new(size);
-        let background = self.style.background.to_u32().to_be_bytes();
-        frame.pixels_mut().fill(background);
-        let pictures = self.of_levels()?;
-        let mut all = Vec::new();
-        for (i, (picture, corner)) in pictures.iter().enumerate() {
-            let progress = OfLevel {
-                all: progress,
-                done: i as u64,
-                levels: pictures.len() as u64,
-            };
-            let (of_level, rendered) = picture.render_frame(method, &progress)?;
-            copy(&of_level, &mut frame, *corner);
-            all.push(rendered);
-        }
-        let started = Instant::now();
-        sink(&frame)?;
-        let mut joined = join(all);
-        joined.write_ms = elapsed_ms(started);
-        Ok(joined)
-    }
-}
-
-/// Progress of one of several levels.
-struct OfLevel<'p> {
-    all: &'p dyn Progress,
-    done: u64,
-    levels: u64,
-}
-
-impl Progress for OfLevel<'_> {
-    fn advance(&self, done: u64, total: u64) {
-        self.all
-            .advance(self.done * total + done, self.levels * total);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.all.cancelled()
-    }
-}
-
-/// The account of a picture of levels: what is hidden is on no level.
-///
-/// # Panics
-/// Without a level.
-pub(crate) fn join(levels: Vec<Rendered>) -> Rendered {
-    let joined = levels.into_iter().reduce(|mut all, level| {
-        let (report, other) = (&mut all.report, level.report);
-        report.drawn += other.drawn;
-        report.culled += other.culled;
-        report.notes.extend(other.notes);
-        all.prepare_ms += level.prepare_ms;
-        all.render_ms += level.render_ms;
-        all
-    });
-    let mut all = joined.expect("a picture of levels has one");
-    let report = &mut all.report;
-    let shown = report.drawn + report.culled + report.refused;
-    report.hidden = report.total.saturating_sub(shown);
-    report.notes.dedup();
-    all
 }
 
 /// Copies a frame into a larger one, its upper left pixel to (left, top).
-fn copy(from: &Frame, to: &mut Frame, [left, top]: [u32; 2]) {
+pub(crate) fn copy(from: &Frame, to: &mut Frame, [left, top]: [u32; 2]) {
     let (width, to_width) = (from.size().width() as usize, to.size().width() as usize);
     let rows = from.pixels().chunks_exact(width);
     let targets = to.pixels_mut().chunks_exact_mut(to_width);
@@ -176,6 +91,7 @@ fn copy(from: &Frame, to: &mut Frame, [left, top]: [u32; 2]) {
 #[cfg(test)]
 mod tests {
     use guideway_cpu::Cpu;
+    use guideway_formats::Progress;
     use guideway_layout::{Layout, Level, NewPath};
     use guideway_scene::{Scene, SceneOptions};
     use guideway_spline::Runs;

@@ -117,9 +117,11 @@ impl Picture {
         let style = self.decoration_style();
         let colors = (&*self.scene, self.style.shading);
         match place_legend(&self.decorations, colors, &plain, &style) {
-            Some(legend) if !legend.is_free => {
-                let beside = self.fit([legend.bounds.max.x, title_px], None, bounds)?;
-                let below = self.fit([0.0, legend.bounds.max.y], None, bounds)?;
+            Some(legend) if legend.covered > 0 => {
+                let gap_px = style.line_px() / 2.0;
+                let room = legend.bounds.size() + Point::new(gap_px, gap_px);
+                let beside = self.fit([room.x, title_px], None, bounds)?;
+                let below = self.fit([0.0, title_px + room.y], None, bounds)?;
                 match beside.px_per_m() >= below.px_per_m() {
                     true => Ok(beside),
                     false => Ok(below),
@@ -181,6 +183,7 @@ impl Picture {
 
 #[cfg(test)]
 mod tests {
+    use guideway_document::decorations::Corner;
     use guideway_layout::{Layout, NewPath, Value};
     use guideway_scene::{ColorBy, SceneOptions, Shading};
     use guideway_spline::Runs;
@@ -250,7 +253,7 @@ mod tests {
             let style = picture.decoration_style();
             let colors = (&*picture.scene, Shading::Color);
             let legend = place_legend(&picture.decorations, colors, &view, &style);
-            assert!(legend.unwrap().is_free, "{side_m:?}");
+            assert_eq!(legend.unwrap().covered, 0, "{side_m:?}");
         }
     }
 
@@ -264,7 +267,47 @@ mod tests {
         let style = picture.decoration_style();
         let colors = (&*picture.scene, Shading::Color);
         let legend = place_legend(&picture.decorations, colors, &view, &style);
-        assert!(legend.unwrap().is_free);
+        assert_eq!(legend.unwrap().covered, 0);
+    }
+
+    #[test]
+    fn a_legend_without_a_free_corner_takes_the_emptiest() {
+        let mut picture = with_legend(Point::new(12.0, 8.0));
+        let mut layout = Layout::clone(picture.scene.layout());
+        // Three paths in each corner of the view, and one on the lower right.
+        for (x, y, count) in [
+            (0.0, 9.2, 3),
+            (12.0, 9.2, 3),
+            (12.0, -1.2, 1),
+            (0.0, -1.2, 3),
+        ] {
+            for i in 0..count {
+                let mut runs = Runs::default();
+                let y = y + f64::from(i) * 0.01;
+                runs.push_line(Point::new(x - 3.0, y), Point::new(x + 3.0, y));
+                layout.paths.push(&NewPath {
+                    runs: &runs,
+                    ..NewPath::default()
+                });
+            }
+        }
+        let options = SceneOptions {
+            color_by: Some(ColorBy {
+                column: "kind".into(),
+            }),
+            ..SceneOptions::default()
+        };
+        picture.scene = Arc::new(Scene::new(Arc::new(layout), &options).unwrap());
+        picture.viewport.center_m = Some(Point::new(6.0, 4.0));
+        picture.viewport.px_per_m = Some(40.0);
+        let view = picture.view().unwrap();
+        let style = picture.decoration_style();
+        let colors = (&*picture.scene, Shading::Color);
+        let legend = place_legend(&picture.decorations, colors, &view, &style).unwrap();
+        assert_eq!(
+            (legend.corner, legend.covered > 0),
+            (Corner::LowerRight, true)
+        );
     }
 
     #[test]

@@ -111,7 +111,7 @@ fn as_io(error: png::EncodingError) -> io::Error {
     }
 }
 
-/// What a PNG file says beside its pixels.
+/// Texts and size on paper of a PNG file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PngHeader {
     /// Keywords and values of the text chunks (PNG, third edition, 11.3.3).

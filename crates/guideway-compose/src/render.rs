@@ -12,6 +12,7 @@ use guideway_scene::{
 
 use crate::backdrop::SweptReport;
 use crate::decorations::density_legend;
+use crate::levels::copy;
 use crate::overlay::PreparedOverlay;
 use crate::{ComposeError, Picture, blend, save_png_by};
 
@@ -133,6 +134,49 @@ impl Picture {
         })
     }
 
+    /// Renders the levels into a frame that holds the whole picture, and hands it to `sink`.
+    ///
+    /// # Errors
+    /// See [`Picture::render`].
+    fn render_levels(
+        &self,
+        method: &dyn Method,
+        progress: &dyn Progress,
+        sink: StripSink<'_>,
+    ) -> Result<Rendered, ComposeError> {
+        let size = self.viewport.size;
+        let needed_bytes = 4 * size.pixels() as u64;
+        if needed_bytes > self.budget.memory_bytes {
+            let error = RenderError::Budget {
+                method: method.info().name,
+                what: "levels side by side",
+                needed_bytes,
+                budget_bytes: self.budget.memory_bytes,
+            };
+            return Err(error.into());
+        }
+        let mut frame = Frame::new(size);
+        let background = self.style.background.to_u32().to_be_bytes();
+        frame.pixels_mut().fill(background);
+        let pictures = self.of_levels()?;
+        let mut all = Vec::new();
+        for (i, (picture, corner)) in pictures.iter().enumerate() {
+            let progress = OfLevel {
+                all: progress,
+                done: i as u64,
+                levels: pictures.len() as u64,
+            };
+            let (of_level, rendered) = picture.render_frame(method, &progress)?;
+            copy(&of_level, &mut frame, *corner);
+            all.push(rendered);
+        }
+        let started = Instant::now();
+        sink(&frame)?;
+        let mut joined = join(all);
+        joined.write_ms = elapsed_ms(started);
+        Ok(joined)
+    }
+
     /// Renders the picture into one frame.
     ///
     /// # Errors
@@ -168,6 +212,46 @@ impl Picture {
             self.render(method, progress, sink)
         })
     }
+}
+
+/// Progress of one of several levels.
+struct OfLevel<'p> {
+    all: &'p dyn Progress,
+    done: u64,
+    levels: u64,
+}
+
+impl Progress for OfLevel<'_> {
+    fn advance(&self, done: u64, total: u64) {
+        self.all
+            .advance(self.done * total + done, self.levels * total);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.all.cancelled()
+    }
+}
+
+/// The account of a picture of levels: what is hidden is on no level.
+///
+/// # Panics
+/// Without a level.
+pub(crate) fn join(levels: Vec<Rendered>) -> Rendered {
+    let joined = levels.into_iter().reduce(|mut all, level| {
+        let (report, other) = (&mut all.report, level.report);
+        report.drawn += other.drawn;
+        report.culled += other.culled;
+        report.notes.extend(other.notes);
+        all.prepare_ms += level.prepare_ms;
+        all.render_ms += level.render_ms;
+        all
+    });
+    let mut all = joined.expect("a picture of levels has one");
+    let report = &mut all.report;
+    let shown = report.drawn + report.culled + report.refused;
+    report.hidden = report.total.saturating_sub(shown);
+    report.notes.dedup();
+    all
 }
 
 /// Pixels that show the background alone.

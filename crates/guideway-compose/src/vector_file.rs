@@ -11,9 +11,9 @@ use guideway_spline::Point;
 
 use crate::backdrop::VisibleBackdrop;
 use crate::decorations::PlacedDecorations;
-use crate::levels::join;
 use crate::page::Page;
 use crate::pdf::PdfPage;
+use crate::render::join;
 use crate::vector::{width_px, write_draw_list, write_paths};
 use crate::{ComposeError, Picture, Rendered};
 

@@ -1,5 +1,4 @@
-//! Places the legend in a corner without paths, and measures the room that it needs if there is
-//! none.
+//! Places the legend in the emptiest corner, and tells if there is no corner without paths.
 
 use guideway_document::decorations::{Corner, DecorationStyle, legend, scale_bar_box};
 use guideway_scene::density::{ToneMap, ToneScale};
@@ -16,8 +15,8 @@ pub(crate) struct PlacedLegend {
     pub(crate) list: DrawList,
     pub(crate) bounds: Bounds<f64>,
     pub(crate) corner: Corner,
-    /// True if no path and no other decoration is below it.
-    pub(crate) is_free: bool,
+    /// Number of segments of paths that may be below it; `usize::MAX` if another decoration is.
+    pub(crate) covered: usize,
 }
 
 /// The meaning of the colors of a picture; `None` if they have none. For density, the numbers are
@@ -41,8 +40,8 @@ pub(crate) fn density_legend(
     Some(legend(colors, size, top_px, corner, style)?.0)
 }
 
-/// The legend of a picture in the first corner without paths, else in the upper left one. `None`
-/// without a legend, or if it does not fit the picture.
+/// The legend of a picture in the corner with the fewest segments of paths, the first one of
+/// several. `None` without a legend, or if it does not fit the picture.
 ///
 /// Cost: O(control points).
 pub(crate) fn place_legend(
@@ -74,21 +73,21 @@ pub(crate) fn place_legend(
             },
             bounds,
             corner,
-            is_free: !is_over && !has_path(scene, view, bounds),
+            covered: match is_over {
+                true => usize::MAX,
+                false => segments_in(scene, view, bounds),
+            },
         })
     };
     let placed = Corner::ALL.into_iter().filter_map(at);
-    placed.reduce(|best, other| match best.is_free || !other.is_free {
-        true => best,
-        false => other,
-    })
+    placed.min_by_key(|placed| placed.covered)
 }
 
-/// Returns whether a path may be within a box of pixels: by the hulls of its Bezier curves.
-fn has_path(scene: &Scene, view: &View, box_px: Bounds<f64>) -> bool {
+/// Number of segments that may be within a box of pixels: by the hulls of their Bezier curves.
+fn segments_in(scene: &Scene, view: &View, box_px: Bounds<f64>) -> usize {
     let corners = [box_px.min, box_px.max].map(|corner| view.world_from_pixel(corner));
     let Some(box_m) = Bounds::of_points(corners) else {
-        return false;
+        return 0;
     };
     let shown = scene.layout().paths.iter();
     shown
@@ -96,5 +95,6 @@ fn has_path(scene: &Scene, view: &View, box_px: Bounds<f64>) -> bool {
         .flat_map(|path| path.runs())
         .flat_map(|run| run.segments())
         .filter_map(|segment| Bounds::of_points(to_bezier(&segment)))
-        .any(|bounds| bounds.intersects(box_m))
+        .filter(|bounds| bounds.intersects(box_m))
+        .count()
 }

@@ -13,7 +13,7 @@ const DECIMALS: usize = 3;
 /// Decimals of factors. Derived: a page of 65,535 pixels is off by less than a pixel.
 pub(super) const FACTOR_DECIMALS: usize = 6;
 
-/// What is in effect, so that it is not selected again.
+/// The state in effect, which is not selected again.
 #[derive(Clone, Default)]
 struct State {
     /// Name of the graphics state.

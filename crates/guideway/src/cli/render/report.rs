@@ -5,7 +5,7 @@ use std::path::Path;
 use guideway::compose::{Rendered, SweptReport};
 use guideway::envelope::NoEnvelope;
 use guideway::layout::{Severity, shown_path};
-use guideway::scene::{Clock, Legend, Scene};
+use guideway::scene::{Clock, FrameSize, Legend, Scene};
 use serde_json::{Value, json};
 
 use super::args::Args;
@@ -31,6 +31,8 @@ impl Times {
 pub(super) struct Shown<'a> {
     pub(super) scene: &'a Scene,
     pub(super) rendered: &'a Rendered,
+    /// Size of the picture, of which a level beside others has a part.
+    pub(super) size: FrameSize,
     pub(super) route: Option<&'a FoundRoute>,
 }
 
@@ -38,9 +40,9 @@ pub(super) fn text(path: &Path, shown: &Shown<'_>, times: &Times) -> String {
     let Shown {
         scene,
         rendered,
+        size,
         route,
     } = *shown;
-    let size = rendered.view.size();
     let mut text = String::new();
     if !stdout::is_stdout(path) {
         text += &format!(
@@ -125,10 +127,11 @@ pub(super) fn json(args: &Args, output: &Path, shown: &Shown<'_>, times: &Times)
     let Shown {
         scene,
         rendered,
+        size,
         route,
     } = *shown;
     let report = &rendered.report;
-    let (view, size) = (&rendered.view, rendered.view.size());
+    let view = &rendered.view;
     let shown = view.world_bounds();
     let layout = scene.layout();
     let stages: Vec<Value> = report

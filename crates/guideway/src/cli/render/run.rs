@@ -110,6 +110,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let shown = Shown {
         scene: &scene,
         rendered: &rendered,
+        size: picture.viewport.size,
         route: route.as_ref(),
     };
     print_report(args, &output_file, &shown, &times, out)?;
