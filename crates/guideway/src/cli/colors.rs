@@ -47,7 +47,8 @@ mod tests {
         let painted = paint(text);
         assert_eq!(
             painted,
-            "\x1b[1;31merror\x1b[0m: kink (1)\n  - path \"a\": info\n    \x1b[1;32mhint\x1b[0m: do\n    \
+            "\x1b[1;31merror\x1b[0m: kink (1)\n  - path \"a\": info\n    \
+             \x1b[1;32mhint\x1b[0m: do\n    \
              1,234  \x1b[1;33mwarning\x1b[0m kink: x\n"
         );
         for plain in [

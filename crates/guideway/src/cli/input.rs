@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use guideway::SaveError;
 use guideway::formats::{ReadError, ReadOptions, is_same_file, read_file, read_stream};
-use guideway::layout::{Layout, Limits, UserError, merge, shown_path};
+use guideway::layout::{Layout, Limits, UserError, merge, near_names, shown_path};
 use guideway::spline::{Affine, Point};
 
 use super::error::{same_file_error, usage_error};
@@ -66,7 +66,14 @@ impl Input {
             "rotate" => self.rotate_deg = Some(values::degrees(value)?),
             "offset" => self.offset_m = Some(values::point(value)?),
             "px-per-m" => self.px_per_m = Some(values::factor(value)?),
-            _ => return Err("the keys are scale, rotate and offset; px-per-m for images".into()),
+            _ => {
+                let near = near_names(key, ["scale", "rotate", "offset", "px-per-m"]);
+                let near = near.first().map(|near| format!("did you mean `{near}`? "));
+                return Err(format!(
+                    "{}the keys are scale, rotate and offset; px-per-m for images",
+                    near.unwrap_or_default()
+                ));
+            }
         }
         Ok(())
     }
@@ -307,6 +314,7 @@ mod tests {
     fn rejects_bad_keys_and_values_with_an_example() {
         for (bad, said) in [
             ("a@size=2", "scale, rotate and offset"),
+            ("a@scal=2", "did you mean `scale`?"),
             ("a@2,scale=3", "scale, rotate and offset"),
             ("a@scale=0", "1e-9 to 1e9"),
             ("a@scale=1e10", "1e-9 to 1e9"),
