@@ -42,7 +42,7 @@ mod view;
 pub use color::{ParseColorError, Rgba};
 pub use color_by::{ColorBy, Legend, LegendEntry, LegendScale};
 pub use draw_list::{DrawList, Fill, TextLine};
-pub use edit::{Edit, EditError, Insertion, NewNode, NewStation, TableEdit};
+pub use edit::{Edit, EditError, Gesture, GesturePaths, Insertion, NewNode, NewStation, TableEdit};
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, Prepared};

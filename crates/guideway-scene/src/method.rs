@@ -6,7 +6,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::{Edit, Frame, Preparation, RenderError, Report, Scene, Strip, Style, View, Work};
+use crate::{
+    Edit, Frame, Gesture, Preparation, RenderError, Report, Scene, Strip, Style, View, Work,
+};
 
 /// A renderer. Immutable, so threads can share it.
 pub trait Method: Send + Sync {
@@ -72,6 +74,17 @@ pub trait Prepared: Send {
     /// [`RenderError::Budget`] or [`RenderError::Device`] when memory does not suffice; prepare the
     /// scene again then.
     fn edit(&mut self, _edit: &Edit) -> Result<EditOutcome, RenderError> {
+        Ok(EditOutcome::NotInPlace)
+    }
+
+    /// Shows the paths of a gesture of this scene as its map leaves them, within the tolerance of
+    /// the method, until the next call; `None` shows the scene, to the bit as before the gesture.
+    /// The first call for some paths may take time in proportion to their number; later calls with
+    /// the same paths and another map take much less. An edit ends the gesture.
+    ///
+    /// # Errors
+    /// As [`Self::edit`]; frames then show the scene.
+    fn show_gesture(&mut self, _gesture: Option<&Gesture>) -> Result<EditOutcome, RenderError> {
         Ok(EditOutcome::NotInPlace)
     }
 

@@ -20,7 +20,7 @@ use guideway_scene::{
     Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
     Report, Shading, Stage, Style, View, density, elapsed_ms,
 };
-use guideway_scene::{Edit, Rgba, Scene};
+use guideway_scene::{Edit, Gesture, Rgba, Scene};
 use guideway_spline::{Bounds, Point};
 
 use band::Band;
@@ -53,6 +53,7 @@ impl Method for Oracle {
         let memory_bytes = budget.memory_bytes;
         Ok(Box::new(PreparedOracle {
             scene,
+            at_rest: None,
             memory_bytes,
             preparation: Preparation::default(),
         }))
@@ -60,7 +61,10 @@ impl Method for Oracle {
 }
 
 struct PreparedOracle {
+    /// As shown.
     scene: Arc<Scene>,
+    /// The scene without the gesture that is shown, if there is one.
+    at_rest: Option<Arc<Scene>>,
     memory_bytes: u64,
     /// Empty: the oracle prepares nothing.
     preparation: Preparation,
@@ -132,8 +136,21 @@ impl Prepared for PreparedOracle {
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
+        self.show_gesture(None)?;
         let scene = Arc::make_mut(&mut self.scene);
         scene.edit(edit).map_err(RenderError::Edit)?;
+        Ok(EditOutcome::InPlace { moved_bytes: 0 })
+    }
+
+    fn show_gesture(&mut self, gesture: Option<&Gesture>) -> Result<EditOutcome, RenderError> {
+        if let Some(at_rest) = self.at_rest.take() {
+            self.scene = at_rest;
+        }
+        if let Some(gesture) = gesture {
+            let mut shown = Scene::clone(&self.scene);
+            shown.edit(&gesture.edit()).map_err(RenderError::Edit)?;
+            self.at_rest = Some(std::mem::replace(&mut self.scene, Arc::new(shown)));
+        }
         Ok(EditOutcome::InPlace { moved_bytes: 0 })
     }
 

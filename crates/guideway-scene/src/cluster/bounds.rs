@@ -77,6 +77,17 @@ impl ClusterBounds {
         self.with_slack(bounds, x.max(y))
     }
 
+    /// The cluster where a map shows it: with the mapped origin, and a box of the mapped box.
+    #[must_use]
+    pub fn shown(&self, by: Affine) -> Self {
+        let corners = self.bounds.corners().map(|p| by.apply(p));
+        Self {
+            bounds: Bounds::of_points(corners).unwrap_or(self.bounds),
+            origin: by.apply(self.origin),
+            ..*self
+        }
+    }
+
     /// Replaces the box, unless the slack is too large.
     fn with_slack(&self, bounds: Bounds<f64>, slack_m: f64) -> Option<Self> {
         /// Largest slack, in parts of the larger side: a box that is larger costs more in culling

@@ -1,5 +1,7 @@
 //! Cluster index: clusters of rows with the bounds of each, by which a renderer culls.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::bounds::{ClusterBounds, MemberHull};
@@ -42,6 +44,32 @@ impl ClusterIndex {
     #[inline]
     pub fn bounds(&self) -> &[Option<ClusterBounds>] {
         &self.bounds
+    }
+
+    /// Appends clusters of rows that other clusters hold, too, until [`Self::drop_copies`]. Edits
+    /// do not know them. `hull` returns the box of some rows.
+    pub fn append_copies(
+        &mut self,
+        rows: Vec<u32>,
+        hull: impl Fn(&[u32]) -> MemberHull + Sync,
+    ) -> Range<u32> {
+        let first = self.bounds.len() as u32;
+        let clusters = rows.par_chunks(CLUSTER_LEN);
+        let bounds = clusters.map(|rows| hull(rows).map(ClusterBounds::new));
+        self.bounds.par_extend(bounds);
+        self.order.append_copies(rows);
+        first..self.bounds.len() as u32
+    }
+
+    /// Drops the clusters of [`Self::append_copies`].
+    pub fn drop_copies(&mut self) {
+        self.order.drop_copies();
+        self.bounds.truncate(self.order.cluster_count());
+    }
+
+    /// Replaces the bounds of a cluster.
+    pub fn set_bounds(&mut self, cluster: u32, bounds: ClusterBounds) {
+        self.bounds[cluster as usize] = Some(bounds);
     }
 
     /// Heap bytes held.

@@ -20,6 +20,8 @@ const TASK_ROWS: usize = 1 << 16;
 #[derive(Clone, Debug, Default)]
 pub struct ClusterOrder {
     rows: Vec<u32>,
+    /// Rows of clusters behind those of all rows: see [`Self::append_copies`].
+    copies: Vec<u32>,
     /// Place of each row in `rows`; built at the first look-up.
     places: OnceLock<Vec<u32>>,
 }
@@ -33,6 +35,7 @@ impl ClusterOrder {
     ) -> Self {
         Self {
             rows: hilbert_order(count, bounds, position),
+            copies: Vec::new(),
             places: OnceLock::new(),
         }
     }
@@ -44,7 +47,7 @@ impl ClusterOrder {
 
     /// Number of clusters.
     pub fn cluster_count(&self) -> usize {
-        self.rows.len().div_ceil(CLUSTER_LEN)
+        self.rows.len().div_ceil(CLUSTER_LEN) + self.copies.len().div_ceil(CLUSTER_LEN)
     }
 
     /// The rows of a cluster: [`CLUSTER_LEN`], or fewer in the last cluster.
@@ -54,7 +57,21 @@ impl ClusterOrder {
     #[inline]
     pub fn rows_of(&self, cluster: u32) -> &[u32] {
         let first = cluster as usize * CLUSTER_LEN;
-        &self.rows[first..self.rows.len().min(first + CLUSTER_LEN)]
+        let (rows, first) = match first.checked_sub(self.rows.len().next_multiple_of(CLUSTER_LEN)) {
+            Some(first) => (&self.copies, first),
+            None => (&self.rows, first),
+        };
+        &rows[first..rows.len().min(first + CLUSTER_LEN)]
+    }
+
+    /// Appends clusters of rows that other clusters hold, too. Look-ups find the others.
+    pub(super) fn append_copies(&mut self, rows: Vec<u32>) {
+        self.copies = rows;
+    }
+
+    /// Drops the clusters of [`Self::append_copies`].
+    pub(super) fn drop_copies(&mut self) {
+        self.copies = Vec::new();
     }
 
     /// Index of a row in [`Self::rows`], if there is such a row.
@@ -111,7 +128,7 @@ impl ClusterOrder {
     /// Heap bytes held.
     pub fn heap_bytes(&self) -> usize {
         let places = self.places.get().map_or(0, Vec::capacity);
-        (self.rows.capacity() + places) * size_of::<u32>()
+        (self.rows.capacity() + self.copies.capacity() + places) * size_of::<u32>()
     }
 }
 
@@ -135,6 +152,20 @@ mod tests {
             assert_eq!(order.place(row), Some(place));
         }
         assert_eq!(order.rows_of(3).len(), 210 - 3 * CLUSTER_LEN);
+    }
+
+    #[test]
+    fn copies_have_clusters_behind_all_others_until_they_are_dropped() {
+        let mut order = order(150);
+        let places: Vec<_> = (0..150).map(|row| order.place(row)).collect();
+        order.append_copies((0..70).collect());
+        assert_eq!(order.cluster_count(), 5);
+        let lengths: Vec<_> = (0..5).map(|at| order.rows_of(at).len()).collect();
+        assert_eq!(lengths, [64, 64, 22, 64, 6]);
+        assert_eq!(order.rows_of(4), [64, 65, 66, 67, 68, 69]);
+        assert!((0..150).map(|row| order.place(row)).eq(places));
+        order.drop_copies();
+        assert_eq!((order.cluster_count(), order.rows_of(2).len()), (3, 22));
     }
 
     #[test]

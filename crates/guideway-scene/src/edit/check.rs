@@ -23,9 +23,7 @@ impl Edit {
         let geometry = scene.layout().paths.geometry();
         match self {
             Self::Transform { paths, by } => {
-                if let Some(path) = find_duplicate(paths) {
-                    return Err(EditError::DuplicatePath { path });
-                }
+                check_rows(scene, paths)?;
                 // A map that keeps the corners of a box in bounds keeps all points inside it in
                 // bounds.
                 let hull = geometry.hull_bounds(paths.iter().map(|&path| path as usize));
@@ -87,6 +85,20 @@ impl Insertion {
     }
 }
 
+/// Accepts rows of paths that exist, each once.
+pub(super) fn check_rows(scene: &Scene, paths: &[u32]) -> Result<(), EditError> {
+    let rows = scene.row_count();
+    // Without an early exit the compiler vectorizes the comparison.
+    let greatest = paths.iter().copied().fold(0, u32::max);
+    if let Some(path) = (!paths.is_empty() && greatest as usize >= rows).then_some(greatest) {
+        return Err(EditError::UnknownPath { path, rows });
+    }
+    match find_duplicate(paths) {
+        Some(path) => Err(EditError::DuplicatePath { path }),
+        None => Ok(()),
+    }
+}
+
 /// A row that occurs more than once. Rows in ascending order, as selections have them, need no
 /// sort.
 fn find_duplicate(rows: &[u32]) -> Option<u32> {
@@ -103,6 +115,6 @@ fn find_duplicate(rows: &[u32]) -> Option<u32> {
         .map(|[a, _]| *a)
 }
 
-fn is_in_bounds(mut points: impl Iterator<Item = Point<f64>>) -> bool {
+pub(super) fn is_in_bounds(mut points: impl Iterator<Item = Point<f64>>) -> bool {
     points.all(|p| p.x.abs() <= MAX_COORDINATE_M && p.y.abs() <= MAX_COORDINATE_M)
 }

@@ -17,6 +17,8 @@ pub enum EditError {
         /// Row of the path; `None` for a path that is not part of the scene yet.
         path: Option<u32>,
     },
+    /// The paths of a gesture would exceed the coordinate limit.
+    FarGesture,
     /// The layout has no such element, level or block.
     UnknownReference {
         /// Its kind, such as `level` or `node`.
@@ -86,6 +88,10 @@ impl fmt::Display for EditError {
                     "a new path needs finite points within the coordinate limit of 1e9 m"
                 )
             }
+            Self::FarGesture => write!(
+                f,
+                "the paths would exceed the coordinate limit of 1e9 m; move them less far"
+            ),
             Self::UnknownReference { what, row } => write!(
                 f,
                 "the layout has no {what} in row {row}; choose one that exists"

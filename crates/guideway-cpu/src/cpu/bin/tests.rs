@@ -9,7 +9,7 @@ use guideway_spline::{Bounds, Point};
 
 use super::cull::VisibleClusters;
 use crate::cpu::frame::clusters::StyleSummary;
-use crate::cpu::frame::prepared::{CpuPrepared, frame_context};
+use crate::cpu::frame::prepared::CpuPrepared;
 use crate::cpu::ground::simd::SimdLevel;
 use crate::cpu::ground::tile::TILE_PX;
 use crate::cpu::testing::*;
@@ -21,7 +21,7 @@ fn a_cluster_lands_in_exactly_the_tiles_it_overlaps() {
     let strip = Strip::whole(&view);
     let summary = StyleSummary::of(&scene);
     let frame = (&strip, &style, &cancel);
-    let ctx = frame_context(&scene, &summary, SimdLevel::default(), frame);
+    let ctx = summary.frame_context((&scene, None), SimdLevel::default(), frame);
     let mut next = numbers(4);
     let boxes = (0..200).map(|_| {
         let (min, size) = (Point::new(next(), next()) * 150.0, next().abs() * 60.0);

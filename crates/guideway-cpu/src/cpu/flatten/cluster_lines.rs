@@ -7,9 +7,8 @@
 use std::ops::Range;
 
 use guideway_layout::RunPoints;
-use guideway_scene::PathState;
 use guideway_scene::cluster::CLUSTER_LEN;
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Affine, Bounds, Point};
 
 use super::chain_curves::CurveChains;
 use super::clipped::flatten_clipped;
@@ -17,6 +16,7 @@ use super::knots::{Chain, CurveRun, Knots};
 use super::polylines::{PolylineWriter, Polylines};
 use super::simplify::DouglasPeucker;
 use crate::cpu::ground::frame_context::FrameContext;
+use crate::cpu::ground::gesture::ClusterPaths;
 use crate::cpu::ground::simd::simd_dispatch;
 use crate::cpu::ground::tile::{PASSES, TILE_PX};
 
@@ -63,7 +63,7 @@ impl ClusterLines {
         &mut self,
         ctx: &FrameContext<'_>,
         is_oversized: bool,
-        (paths, origin_m): (&[u32], Point<f64>),
+        paths: ClusterPaths<'_>,
         rows: &Range<usize>,
         scratch: &mut FlattenScratch,
     ) {
@@ -81,7 +81,7 @@ impl ClusterLines {
             Self::Cached(_, lines) => lines,
             Self::None | Self::Clipped(_) => Polylines::default(),
         };
-        scratch.flatten_local(ctx, paths, origin_m, unit_m);
+        scratch.flatten_local(ctx, paths, unit_m);
         lines.copy_from(&scratch.lines);
         *self = Self::Cached(unit_m, lines);
     }
@@ -162,13 +162,7 @@ impl FlattenScratch {
     }
 
     /// Flattens all shown paths into `self.lines`, in units from `origin_m`.
-    fn flatten_local(
-        &mut self,
-        ctx: &FrameContext<'_>,
-        paths: &[u32],
-        origin_m: Point<f64>,
-        unit_m: f64,
-    ) {
+    fn flatten_local(&mut self, ctx: &FrameContext<'_>, paths: ClusterPaths<'_>, unit_m: f64) {
         let scene = ctx.scene;
         let Self {
             lines,
@@ -178,15 +172,20 @@ impl FlattenScratch {
         } = self;
         lines.clear();
         let units_per_m = 1.0 / unit_m;
+        let turn = paths.by.filter(|by| by.as_translation().is_none());
         let local = |p: Point<f64>| {
-            let (x, y) = (p.x - origin_m.x, origin_m.y - p.y);
-            Point::new(x * units_per_m, y * units_per_m).to_f32()
+            let mut from_origin = p - paths.origin_m;
+            if let Some(by) = turn {
+                from_origin = by.x * from_origin.x + by.y * from_origin.y;
+            }
+            let Point { x, y } = from_origin;
+            Point::new(x * units_per_m, -y * units_per_m).to_f32()
         };
         points.clear();
         runs.clear();
-        for member in spread_order(paths.len()) {
-            let path = paths[member];
-            if scene.state(path) != PathState::Shown {
+        for member in spread_order(paths.rows.len()) {
+            let path = paths.rows[member];
+            if !paths.draws(scene, path) {
                 continue;
             }
             for run in scene.layout().paths.geometry().runs(path as usize) {
@@ -207,7 +206,7 @@ impl FlattenScratch {
     fn flatten_clipped(
         &mut self,
         ctx: &FrameContext<'_>,
-        paths: &[u32],
+        paths: ClusterPaths<'_>,
         rows: &Range<usize>,
         clipped: &mut Polylines<f32>,
     ) {
@@ -218,14 +217,15 @@ impl FlattenScratch {
         let bottom = (rows.end * TILE_PX) as f64 + reach;
         let mut writer = PolylineWriter::new();
         let (mut path_count, mut line_count) = (0, 0);
-        for (member, &path) in paths.iter().enumerate() {
-            if ctx.scene.state(path) != PathState::Shown {
+        let by = paths.by.unwrap_or(Affine::IDENTITY);
+        for (member, &path) in paths.rows.iter().enumerate() {
+            if !paths.draws(ctx.scene, path) {
                 continue;
             }
             let before = line_count;
             for run in ctx.scene.layout().paths.geometry().runs(path as usize) {
                 pixels.clear();
-                pixels.extend(run.iter().map(|p| ctx.view.pixel_from_world(p)));
+                pixels.extend(run.iter().map(|p| ctx.view.pixel_from_world(by.apply(p))));
                 let mut last = None;
                 flatten_clipped(pixels, clip, &mut |start: Point<f64>, end: Point<f64>| {
                     line_count += 1;

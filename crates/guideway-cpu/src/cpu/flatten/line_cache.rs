@@ -54,6 +54,13 @@ impl LineCache {
         self.states.resize(clusters, LineState::default());
     }
 
+    /// Drops the entries of all clusters from this one on.
+    pub(crate) fn truncate(&mut self, clusters: usize) {
+        let dropped = self.lines.drain(clusters..);
+        self.bytes -= dropped.map(|lines| lines.bytes()).sum::<u64>();
+        self.states.truncate(clusters);
+    }
+
     /// Evicts the lines of all clusters except those that `keep` accepts.
     pub(crate) fn evict(&mut self, keep: impl Fn(u32) -> bool) {
         let entries = self.lines.iter_mut().zip(&mut self.states);

@@ -1,13 +1,19 @@
 //! The prepared scene: clusters of paths, their cached lines, and the styles that decide how they
 //! are drawn. Keeps all three up to date over edits.
 
-use guideway_scene::cluster::{AppliedEdit, CLUSTER_LEN, ClusterIndex, ClusterOrder, PendingEdit};
-use guideway_scene::{Rgba, Scene};
+use guideway_scene::cluster::{
+    AppliedEdit, CLUSTER_LEN, ClusterIndex, ClusterOrder, Members, PendingEdit, RowHulls,
+};
+use guideway_scene::{Cancel, GesturePaths, PathState, Rgba, Scene, Shading, Strip, Style};
 use guideway_spline::{Affine, Bounds};
+use rayon::prelude::*;
 
 use crate::cpu::flatten::line_cache::LineCache;
-use crate::cpu::ground::frame_context::OwnWidths;
+use crate::cpu::ground::frame_context::{FrameContext, OwnWidths};
+use crate::cpu::ground::gesture::ShownGesture;
 use crate::cpu::ground::scene_hulls::SceneHulls;
+use crate::cpu::ground::simd::SimdLevel;
+use crate::cpu::ground::snapped_view::SnappedTransform;
 
 /// The clusters of a scene with all that outlasts a frame.
 pub(crate) struct PreparedClusters {
@@ -40,6 +46,29 @@ impl StyleSummary {
             ranks,
             own_widths: own_widths(scene),
             solid: scene.common_color().filter(|color| color.is_opaque()),
+        }
+    }
+
+    /// A strip of the scene, with the gesture that is shown, as one frame draws it.
+    pub(crate) fn frame_context<'a>(
+        &self,
+        (scene, gesture): (&'a Scene, Option<&'a ShownGesture>),
+        simd: SimdLevel,
+        (strip, style, cancel): (&'a Strip, &'a Style, &'a Cancel),
+    ) -> FrameContext<'a> {
+        let is_density = style.shading != Shading::Color;
+        FrameContext {
+            scene,
+            gesture,
+            strip,
+            view: strip.view(),
+            transform: SnappedTransform::new(strip.view()),
+            style,
+            cancel,
+            own_widths: self.own_widths,
+            simd,
+            solid: self.solid.filter(|_| !is_density),
+            inset_for_zoom: None,
         }
     }
 }
@@ -130,6 +159,94 @@ impl PreparedClusters {
             }
         }
         changed
+    }
+
+    /// Begins a gesture: paths that share a cluster with others get clusters of their own.
+    pub(crate) fn begin_gesture(
+        &mut self,
+        scene: &Scene,
+        paths: GesturePaths,
+        rows: &[u32],
+    ) -> ShownGesture {
+        let (hulls, clusters) = (SceneHulls(scene), self.index.order().cluster_count());
+        let members = self.index.order().members_by_cluster(rows);
+        let is_whole = |&(cluster, members): &(u32, Members)| {
+            let of_cluster = self.index.rows_of(cluster).iter().enumerate();
+            let mut others = of_cluster.filter(|(member, _)| members >> member & 1 == 0);
+            others.all(|(_, &row)| scene.state(row) != PathState::Shown)
+        };
+        let (whole, parts): (Vec<_>, Vec<_>) = members.into_par_iter().partition(is_whole);
+        let mut is_split = Vec::new();
+        let mut split = Vec::new();
+        if !parts.is_empty() {
+            is_split.resize(scene.row_count(), false);
+        }
+        for &(cluster, members) in &parts {
+            let of_cluster = self.index.rows_of(cluster).iter().enumerate();
+            split.extend(of_cluster.filter_map(|(i, &row)| (members >> i & 1 == 1).then_some(row)));
+            self.cache.states[cluster as usize].invalidate();
+        }
+        split.iter().for_each(|&row| is_split[row as usize] = true);
+        let own = self.index.append_copies(split, |rows| hulls.hull(rows));
+        self.cache.grow(self.index.order().cluster_count());
+        let mapped = whole.iter().map(|(cluster, _)| *cluster).chain(own);
+        let bounds = self.index.bounds();
+        let at_rest = mapped.filter_map(|at| Some((at, bounds[at as usize]?)));
+        ShownGesture {
+            paths,
+            by: Affine::IDENTITY,
+            at_rest: at_rest.collect(),
+            is_split,
+            thinned: parts.iter().map(|(cluster, _)| *cluster).collect(),
+            clusters,
+        }
+    }
+
+    /// Shows the paths of a gesture where a map leaves them. Returns the boxes, in meters, where
+    /// their clusters were and are.
+    pub(crate) fn map_gesture(
+        &mut self,
+        gesture: &mut ShownGesture,
+        by: Affine,
+    ) -> Vec<Bounds<f64>> {
+        let keeps_lines = gesture.by.x == by.x && gesture.by.y == by.y;
+        gesture.by = by;
+        let mut changed = Vec::with_capacity(2 * gesture.at_rest.len());
+        for (cluster, at_rest) in &gesture.at_rest {
+            let after = at_rest.shown(by);
+            let before = self.index.bounds()[*cluster as usize];
+            changed.extend(before.map(|before| before.bounds));
+            changed.push(after.bounds);
+            self.index.set_bounds(*cluster, after);
+            if !keeps_lines {
+                self.cache.states[*cluster as usize].invalidate();
+            }
+        }
+        changed
+    }
+
+    /// Ends a gesture: the clusters are as before. Returns the boxes, in meters, where those of the
+    /// gesture were and are.
+    pub(crate) fn end_gesture(&mut self, mut gesture: ShownGesture) -> Vec<Bounds<f64>> {
+        let mut changed = self.map_gesture(&mut gesture, Affine::IDENTITY);
+        changed.extend(self.boxes_of(&gesture.thinned));
+        for (cluster, at_rest) in &gesture.at_rest {
+            self.index.set_bounds(*cluster, *at_rest);
+        }
+        for cluster in &gesture.thinned {
+            self.cache.states[*cluster as usize].invalidate();
+        }
+        self.index.drop_copies();
+        self.cache.truncate(gesture.clusters);
+        changed
+    }
+
+    /// The boxes, in meters, of some clusters.
+    pub(crate) fn boxes_of(&self, clusters: &[u32]) -> Vec<Bounds<f64>> {
+        let bounds = clusters
+            .iter()
+            .filter_map(|&at| self.index.bounds()[at as usize]);
+        bounds.map(|cluster| cluster.bounds).collect()
     }
 
     /// The boxes, in meters, of the clusters of some paths.

@@ -13,6 +13,7 @@ use crate::cpu::bin::cull::{VisibleCluster, VisibleClusters};
 use crate::cpu::flatten::cluster_lines::FlattenScratch;
 use crate::cpu::flatten::line_cache::{LineCache, LineState};
 use crate::cpu::ground::frame_context::{FrameContext, LineCacheKey};
+use crate::cpu::ground::gesture::ClusterPaths;
 use crate::cpu::ground::per_thread::thread_slot;
 use crate::cpu::ground::scene_hulls::prefetch_paths;
 
@@ -75,7 +76,8 @@ pub(crate) fn flatten_visible(
         }
         let mut scratch = thread_slot(scratches);
         let before = lines.bytes();
-        let cluster = (index.rows_of(entry.cluster), bounds.origin);
+        let rows_of = index.rows_of(entry.cluster);
+        let cluster = ClusterPaths::of(ctx.gesture, entry.cluster, rows_of, bounds.origin);
         lines.flatten(ctx, entry.is_oversized, cluster, rows, &mut scratch);
         total.fetch_add(lines.bytes().wrapping_sub(before), Ordering::Relaxed);
     });

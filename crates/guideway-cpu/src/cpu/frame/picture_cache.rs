@@ -43,6 +43,25 @@ pub(crate) struct PictureCache {
 }
 
 impl PictureCache {
+    /// Stores what a frame has drawn, if a later frame may reuse it.
+    pub(crate) fn keep(
+        picture: &mut Option<Self>,
+        (ctx, is_moved): (&FrameContext<'_>, bool),
+        damage: &DamageMap,
+        pixels: &[[u8; 4]],
+        has_room: bool,
+    ) {
+        match picture {
+            Some(picture) if is_moved => picture.store(damage, pixels),
+            Some(picture) if picture.is_alike(ctx) => {
+                if has_room {
+                    picture.store_all(ctx, pixels);
+                }
+            }
+            _ => *picture = Some(Self::new(ctx)),
+        }
+    }
+
     /// A cache for frames like `ctx`, without pixels.
     pub(crate) fn new(ctx: &FrameContext<'_>) -> Self {
         Self {

@@ -7,9 +7,10 @@ use bytemuck::cast_slice;
 use guideway_scene::cluster::PendingEdit;
 use guideway_scene::density::ToneScale;
 use guideway_scene::{
-    Budget, Cancel, Edit, EditOutcome, Frame, Preparation, Prepared, RenderError, Report, Scene,
-    Shading, Stage, Strip, Style, View, elapsed_ms,
+    Budget, Cancel, Edit, EditOutcome, Frame, Gesture, GesturePaths, Preparation, Prepared,
+    RenderError, Report, Scene, Shading, Stage, Strip, Style, View, elapsed_ms,
 };
+use guideway_spline::Bounds;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::clusters::{PreparedClusters, StyleSummary};
@@ -17,9 +18,8 @@ use super::flatten_visible::DrawError;
 use super::memory::{FrameMemory, NAME, fixed_bytes, over_budget, threads};
 use super::picture_cache::PictureCache;
 use super::pipeline::{FramePipeline, FrameTarget};
-use crate::cpu::ground::frame_context::FrameContext;
+use crate::cpu::ground::gesture::ShownGesture;
 use crate::cpu::ground::simd::SimdLevel;
-use crate::cpu::ground::snapped_view::SnappedTransform;
 use crate::cpu::raster::full_pixel_cache::FullPixelCache;
 
 /// Most pixels of a strip: 128 MiB of colors.
@@ -32,6 +32,7 @@ pub(crate) struct CpuPrepared {
     /// `None` for the thread pool of the process.
     pool: Option<ThreadPool>,
     clusters: PreparedClusters,
+    gesture: Option<ShownGesture>,
     preparation: Preparation,
     pipeline: FramePipeline,
     picture: Option<PictureCache>,
@@ -69,6 +70,7 @@ impl CpuPrepared {
             budget: *budget,
             pool,
             clusters,
+            gesture: None,
             preparation: Preparation {
                 stages: vec![Stage::host("sort", elapsed_ms(start))],
                 held_bytes,
@@ -84,44 +86,44 @@ impl CpuPrepared {
     }
 }
 
-/// A strip of the scene as one frame draws it.
-pub(crate) fn frame_context<'a>(
-    scene: &'a Scene,
-    summary: &StyleSummary,
-    simd: SimdLevel,
-    (strip, style, cancel): (&'a Strip, &'a Style, &'a Cancel),
-) -> FrameContext<'a> {
-    let is_density = style.shading != Shading::Color;
-    FrameContext {
-        scene,
-        strip,
-        view: strip.view(),
-        transform: SnappedTransform::new(strip.view()),
-        style,
-        cancel,
-        own_widths: summary.own_widths,
-        simd,
-        solid: summary.solid.filter(|_| !is_density),
-        inset_for_zoom: None,
-    }
-}
-
-/// Stores what a frame has drawn, if a later frame may reuse it.
-fn keep_picture(
-    picture: &mut Option<PictureCache>,
-    (ctx, is_moved): (&FrameContext<'_>, bool),
-    pipeline: &FramePipeline,
-    pixels: &[[u8; 4]],
-    has_room: bool,
-) {
-    match picture {
-        Some(picture) if is_moved => picture.store(&pipeline.damage, pixels),
-        Some(picture) if picture.is_alike(ctx) => {
-            if has_room {
-                picture.store_all(ctx, pixels);
-            }
+impl CpuPrepared {
+    /// Splits the paths of a gesture off from others.
+    fn begin_gesture(&mut self, gesture: &Gesture) -> Result<ShownGesture, RenderError> {
+        let scene = &*self.scene;
+        let paths = GesturePaths::begin(scene, gesture).map_err(RenderError::Edit)?;
+        // At most, each path gets into a cluster of the gesture.
+        let copies = PreparedClusters::planned_bytes(gesture.paths.len());
+        let needed = fixed_bytes(scene, &self.budget) + copies + scene.row_count() as u64;
+        if needed > self.budget.memory_bytes {
+            return Err(over_budget(
+                "the paths of the gesture",
+                needed,
+                &self.budget,
+            ));
         }
-        _ => *picture = Some(PictureCache::new(ctx)),
+        let clusters = &mut self.clusters;
+        let begin = || clusters.begin_gesture(scene, paths, &gesture.paths);
+        let shown = install(self.pool.as_ref(), begin);
+        self.take_changes(&self.clusters.boxes_of(&shown.thinned));
+        Ok(shown)
+    }
+
+    /// Shows the scene without a gesture.
+    fn end_gesture(&mut self) {
+        if let Some(gesture) = self.gesture.take() {
+            let clusters = &mut self.clusters;
+            let changes = install(self.pool.as_ref(), || clusters.end_gesture(gesture));
+            self.take_changes(&changes);
+        }
+    }
+
+    /// Forgets what the caches have of places where paths were or are.
+    fn take_changes(&mut self, changes: &[Bounds<f64>]) {
+        self.tones = None;
+        self.full_pixels.forget();
+        if let Some(picture) = &mut self.picture {
+            picture.add_changes(changes);
+        }
     }
 }
 
@@ -148,7 +150,8 @@ impl Prepared for CpuPrepared {
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
         let memory = FrameMemory::plan(
-            fixed_bytes(&self.scene, &self.budget),
+            fixed_bytes(&self.scene, &self.budget)
+                + self.gesture.as_ref().map_or(0, ShownGesture::bytes),
             (strip, style),
             &mut self.picture,
             &mut self.full_pixels,
@@ -165,13 +168,17 @@ impl Prepared for CpuPrepared {
             budget,
             pool,
             clusters,
+            gesture,
             pipeline,
             tones,
             simd,
             full_pixels,
             ..
         } = self;
-        let ctx = frame_context(scene, &clusters.style, *simd, (strip, style, cancel));
+        let shown = (&**scene, gesture.as_ref());
+        let ctx = clusters
+            .style
+            .frame_context(shown, *simd, (strip, style, cancel));
         pipeline.start();
         let bands = install(pool.as_ref(), || {
             let is_moved = pipeline.time("cull", |p| {
@@ -221,7 +228,8 @@ impl Prepared for CpuPrepared {
                     // Lines may soon need the other half of the budget.
                     let used_bytes = memory.own_bytes + memory.frame_bytes + p.peak_bytes;
                     let has_room = used_bytes <= budget.memory_bytes / 2;
-                    keep_picture(&mut picture, (&ctx, is_moved), p, pixels, has_room);
+                    let drawn = (&ctx, is_moved);
+                    PictureCache::keep(&mut picture, drawn, &p.damage, pixels, has_room);
                 });
             }
             Ok(bands)
@@ -243,6 +251,7 @@ impl Prepared for CpuPrepared {
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
+        self.end_gesture();
         let Self {
             scene,
             budget,
@@ -303,6 +312,33 @@ impl Prepared for CpuPrepared {
         Ok(EditOutcome::InPlace { moved_bytes: 0 })
     }
 
+    fn show_gesture(&mut self, gesture: Option<&Gesture>) -> Result<EditOutcome, RenderError> {
+        let shown = self.gesture.as_ref();
+        let is_shown =
+            gesture.is_some_and(|new| shown.is_some_and(|shown| shown.paths.are_of(new)));
+        if !is_shown {
+            self.end_gesture();
+        }
+        if let Some(gesture) = gesture {
+            let shown = match self.gesture.take() {
+                Some(shown) => shown,
+                None => self.begin_gesture(gesture)?,
+            };
+            let checked = shown.paths.check(gesture.by);
+            let shown = self.gesture.insert(shown);
+            if let Err(error) = checked {
+                self.end_gesture();
+                return Err(RenderError::Edit(error));
+            }
+            let clusters = &mut self.clusters;
+            let changes = install(self.pool.as_ref(), || {
+                clusters.map_gesture(shown, gesture.by)
+            });
+            self.take_changes(&changes);
+        }
+        Ok(EditOutcome::InPlace { moved_bytes: 0 })
+    }
+
     fn preparation(&self) -> &Preparation {
         &self.preparation
     }
@@ -323,7 +359,8 @@ impl CpuPrepared {
     pub(crate) fn known_pixels(&self, view: &View, style: &Style) -> u32 {
         let (strip, cancel) = (Strip::whole(view), Cancel::default());
         let frame = (&strip, style, &cancel);
-        let ctx = frame_context(&self.scene, &self.clusters.style, self.simd, frame);
+        let shown = (&*self.scene, self.gesture.as_ref());
+        let ctx = self.clusters.style.frame_context(shown, self.simd, frame);
         self.full_pixels.lookup(&ctx, 0.0).count(&ctx)
     }
 

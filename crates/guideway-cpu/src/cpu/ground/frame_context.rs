@@ -6,6 +6,7 @@ use std::ops::Range;
 use guideway_scene::{Cancel, LineRule, Rgba, Scene, Strip, Style, View};
 use guideway_spline::{Bounds, Point};
 
+use super::gesture::ShownGesture;
 use super::simd::SimdLevel;
 use super::snapped_view::{SnappedTransform, power_of_two_below};
 use super::tile::TILE_PX;
@@ -60,6 +61,8 @@ pub(crate) type OwnWidths = Option<(f32, f32)>;
 #[derive(Clone, Copy)]
 pub(crate) struct FrameContext<'a> {
     pub(crate) scene: &'a Scene,
+    /// The gesture that is shown.
+    pub(crate) gesture: Option<&'a ShownGesture>,
     /// The part of the view that is drawn.
     pub(crate) strip: &'a Strip,
     pub(crate) view: &'a View,

@@ -4,6 +4,7 @@
 pub(super) mod damage;
 pub(super) mod fixed_steps;
 pub(super) mod frame_context;
+pub(super) mod gesture;
 pub(super) mod per_thread;
 pub(super) mod samples;
 pub(super) mod scene_hulls;

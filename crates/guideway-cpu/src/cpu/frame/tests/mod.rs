@@ -2,4 +2,5 @@
 
 mod budget;
 mod edits;
+mod gesture;
 mod picture_cache;

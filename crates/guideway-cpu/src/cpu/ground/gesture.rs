@@ -1,0 +1,80 @@
+//! The gesture that the clusters show: which of them its map moves, and which paths are drawn from
+//! clusters of the gesture instead of their own.
+
+use guideway_scene::cluster::ClusterBounds;
+use guideway_scene::{GesturePaths, PathState, Scene};
+use guideway_spline::{Affine, Point};
+
+/// A gesture, and the clusters without it.
+pub(crate) struct ShownGesture {
+    pub(crate) paths: GesturePaths,
+    pub(crate) by: Affine,
+    /// Mapped clusters without the map, ascending.
+    pub(crate) at_rest: Vec<(u32, ClusterBounds)>,
+    /// True for paths that the gesture draws from clusters of its own; empty without any.
+    pub(crate) is_split: Vec<bool>,
+    /// Clusters of the scene that do not draw such paths.
+    pub(crate) thinned: Vec<u32>,
+    /// Number of clusters of the scene; those of the gesture are behind them.
+    pub(crate) clusters: usize,
+}
+
+impl ShownGesture {
+    /// Heap bytes held.
+    pub(crate) fn bytes(&self) -> u64 {
+        let at_rest = self.at_rest.capacity() * size_of::<(u32, ClusterBounds)>();
+        let thinned = self.thinned.capacity() * size_of::<u32>();
+        (at_rest + thinned + self.is_split.capacity()) as u64
+    }
+}
+
+/// The paths of a cluster as a frame shows them.
+#[derive(Clone, Copy)]
+pub(crate) struct ClusterPaths<'a> {
+    pub(crate) rows: &'a [u32],
+    /// Origin of the control points where the scene has them.
+    pub(crate) origin_m: Point<f64>,
+    /// The map of the control points, if a gesture moves them.
+    pub(crate) by: Option<Affine>,
+    /// Paths that the gesture draws elsewhere.
+    is_split: &'a [bool],
+}
+
+impl<'a> ClusterPaths<'a> {
+    /// The paths of a cluster whose origin is shown at `origin_m`.
+    pub(crate) fn of(
+        gesture: Option<&'a ShownGesture>,
+        cluster: u32,
+        rows: &'a [u32],
+        origin_m: Point<f64>,
+    ) -> Self {
+        let paths = Self {
+            rows,
+            origin_m,
+            by: None,
+            is_split: &[],
+        };
+        let Some(gesture) = gesture else {
+            return paths;
+        };
+        let found = gesture
+            .at_rest
+            .binary_search_by_key(&cluster, |(at, _)| *at);
+        let at_rest = found.ok().map(|index| gesture.at_rest[index].1);
+        Self {
+            origin_m: at_rest.map_or(origin_m, |bounds| bounds.origin),
+            by: at_rest.map(|_| gesture.by),
+            is_split: match (cluster as usize) < gesture.clusters {
+                true => &gesture.is_split,
+                false => &[],
+            },
+            ..paths
+        }
+    }
+
+    /// Returns `true` if the cluster draws a path.
+    pub(crate) fn draws(&self, scene: &Scene, path: u32) -> bool {
+        let is_split = self.is_split.get(path as usize) == Some(&true);
+        scene.state(path) == PathState::Shown && !is_split
+    }
+}
