@@ -121,7 +121,8 @@ impl Memory {
         values: &[T],
     ) -> Result<DeviceBuffer, RenderError> {
         let bytes: &[u8] = bytemuck::cast_slice(values);
-        let created = self.allocate(what, bytes.len() as u64, BufferUsages::STORAGE, true)?;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+        let created = self.allocate(what, bytes.len() as u64, usage, true)?;
         match created.buffer.get_mapped_range_mut(..) {
             Ok(mut view) => view.copy_from_slice(bytes),
             Err(error) => {

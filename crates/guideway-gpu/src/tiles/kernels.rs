@@ -74,6 +74,14 @@ impl Kernels {
         })
     }
 
+    /// The same kernels for gestures that turn, mirror or scale paths.
+    pub(crate) fn mapping(&self, gpu: &Gpu) -> Result<Self, DeviceError> {
+        Ok(Self {
+            flatten: flatten(gpu, &[MAPS])?,
+            ..self.clone()
+        })
+    }
+
     /// The same kernels, but those of a frame of colors count their work.
     pub(crate) fn counting(&self, gpu: &Gpu) -> Result<Self, DeviceError> {
         let counts = [("COUNTS", 1.0)];
@@ -86,7 +94,7 @@ impl Kernels {
             all.split_tiles,
             all.bin_lines,
         ] = bin_kernels(gpu, &counts)?;
-        all.flatten = flatten(gpu, &counts)?;
+        all.flatten = flatten(gpu, &[counts[0], MAPS])?;
         all.sort_lists = sort_lists(gpu, &counts)?;
         for samples in [Samples::Coarse, Samples::Fine] {
             let kernels = &mut all.tile_kernels[samples as usize];
@@ -116,6 +124,9 @@ impl TileKernels {
 }
 
 type Constant = (&'static str, f64);
+
+/// Override of kernels that map the points of a gesture.
+const MAPS: Constant = ("MAPS", 1.0);
 
 /// Overrides of all kernels that draw tiles, but for the number of threads.
 const TILE_CONSTANTS: [Constant; 3] = [

@@ -61,8 +61,8 @@ fn structures_have_the_same_layout() {
     let sources = sources();
     let sources: Vec<_> = sources.iter().collect();
     let frame = members!(FrameParams: center_high_m, center_low_m, lod_reach_px, flatten_low_px,
-        flatten_high_px, window_low_px, window_high_px, lod_origin_px, lod_px_per_m, lod_px_per_px,
-        px_per_lod_px, px_per_m, radius_px, min_radius_px, max_radius_px, tolerance_px, clusters,
+        flatten_high_px, window_low_px, window_high_px, lod_origin_px, map_x, map_y, lod_px_per_m,
+        lod_px_per_px, px_per_lod_px, px_per_m, radius_px, min_radius_px, max_radius_px, tolerance_px, clusters,
         styles, width_px, height_px, first_column, columns, first_row, rows, first_pixel_row,
         line_capacity, reference_capacity, color, background, max_step_m, has_ranks, first_line,
         caches_lines, dirty_clusters, cached_lines, threads_per_line, list_capacity, steps_per_px,
@@ -71,7 +71,7 @@ fn structures_have_the_same_layout() {
     let dispatch = members!(FlattenDispatch: first_cluster, end_cluster, occlusion_pass, is_near);
     assert_layout(&sources, "FlattenDispatch", &dispatch);
     let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m, step_m,
-        first_point, points, first_stroke, strokes);
+        first_point, points, first_stroke, strokes, stored_step_m, is_mapped);
     assert_layout(&sources, "Cluster", &cluster);
     let scroll = members!(ScrollParams: width_px, height_px, right_px, down_px);
     assert_layout(&sources, "Scroll", &scroll);

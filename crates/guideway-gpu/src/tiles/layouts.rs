@@ -16,6 +16,8 @@ pub(crate) struct FrameParams {
     pub(crate) window_low_px: [f32; 2],
     pub(crate) window_high_px: [f32; 2],
     pub(crate) lod_origin_px: [f32; 2],
+    pub(crate) map_x: [f32; 2],
+    pub(crate) map_y: [f32; 2],
     pub(crate) lod_px_per_m: f32,
     pub(crate) lod_px_per_px: f32,
     pub(crate) px_per_lod_px: f32,
@@ -84,6 +86,8 @@ pub(crate) struct Cluster {
     pub(crate) points: u32,
     pub(crate) first_stroke: u32,
     pub(crate) strokes: u32,
+    pub(crate) stored_step_m: f32,
+    pub(crate) is_mapped: u32,
 }
 
 /// Format of control points.

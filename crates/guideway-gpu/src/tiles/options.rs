@@ -33,6 +33,8 @@ pub(crate) struct Shared {
     pub(crate) kernels: Arc<Kernels>,
     /// Compiled when work is first counted.
     counting_kernels: OnceLock<Result<Arc<Kernels>, DeviceError>>,
+    /// Compiled when a gesture first turns, mirrors or scales paths.
+    mapping_kernels: OnceLock<Result<Arc<Kernels>, DeviceError>>,
     pub(crate) options: TilesOptions,
 }
 
@@ -41,6 +43,7 @@ impl Shared {
         Ok(Self {
             kernels: Arc::new(Kernels::new(&gpu)?),
             counting_kernels: OnceLock::new(),
+            mapping_kernels: OnceLock::new(),
             gpu,
             options,
         })
@@ -51,6 +54,14 @@ impl Shared {
         let kernels = self
             .counting_kernels
             .get_or_init(|| self.kernels.counting(&self.gpu).map(Arc::new));
+        kernels.clone()
+    }
+
+    /// Kernels for gestures that turn, mirror or scale paths.
+    pub(crate) fn mapping_kernels(&self) -> Result<Arc<Kernels>, DeviceError> {
+        let kernels = self
+            .mapping_kernels
+            .get_or_init(|| self.kernels.mapping(&self.gpu).map(Arc::new));
         kernels.clone()
     }
 }

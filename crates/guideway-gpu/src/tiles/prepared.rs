@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, Edit, EditOutcome, Frame, Preparation, Prepared, RenderError, Report, Scene,
-    Shading, Stage, Style, View, Work, density, elapsed_ms,
+    Budget, Cancel, Edit, EditOutcome, Frame, Gesture, Preparation, Prepared, RenderError, Report,
+    Scene, Shading, Stage, Style, View, Work, cluster::DirtyClusters, density, elapsed_ms,
 };
 
 use super::device_context::{DeviceContext, device_error};
@@ -16,7 +16,8 @@ use super::frame::target::TargetState;
 use super::kernels::Kernels;
 use super::options::{NAME, Shared};
 use super::paint_mode::PaintMode;
-use super::upload::edit::{self, SceneBufferEdit};
+use super::upload::edit::{self, EditEffect, SceneBufferEdit};
+use super::upload::gesture;
 use super::upload::pack::Packing;
 use super::upload::scene_buffers::SceneBuffers;
 use super::upload::uploaded_scene::UploadedScene;
@@ -71,6 +72,49 @@ impl PreparedTiles {
         } else {
             Ok(())
         }
+    }
+
+    /// The kernels that draw what the buffers show.
+    fn kernels(&self) -> Result<Arc<Kernels>, RenderError> {
+        match &self.scene.gesture {
+            Some(gesture) if gesture.turns() => self.shared.mapping_kernels().map_err(device_error),
+            _ => Ok(Arc::clone(&self.shared.kernels)),
+        }
+    }
+
+    /// Updates the caches after a change of the buffers. Returns the bytes sent to the device.
+    fn take_effect(&mut self, effect: &EditEffect) -> u64 {
+        if effect.changes_appearance {
+            self.target.picture = None;
+        }
+        if let Some(buffers) = &self.scene.buffers {
+            self.target.mark_dirty(&effect.dirty, &buffers.cluster_list);
+        }
+        if effect.loses_lines {
+            self.target.cached_lines = None;
+        }
+        if effect.replaces_buffers {
+            self.target.drop_bindings();
+        }
+        effect.moved_bytes
+    }
+
+    /// Marks what the gesture shows in the caches, at its present place.
+    fn mark_gesture(&mut self) {
+        let mut dirty = DirtyClusters::default();
+        if let (Some(gesture), Some(buffers)) = (&self.scene.gesture, &self.scene.buffers) {
+            gesture
+                .mapped_clusters()
+                .for_each(|cluster| dirty.add(cluster));
+            self.target.mark_dirty(&dirty, &buffers.cluster_list);
+        }
+    }
+
+    /// Shows the scene without a gesture. Returns the bytes sent to the device.
+    fn end_gesture(&mut self) -> Result<u64, RenderError> {
+        self.mark_gesture();
+        let effect = gesture::end(&mut self.scene, &mut self.device)?;
+        Ok(self.take_effect(&effect))
     }
 
     fn draw(
@@ -132,7 +176,7 @@ impl Prepared for PreparedTiles {
                 Shading::Density(_) => PaintMode::Density,
             };
             self.prepare_target(&context, paint)?;
-            let kernels = Arc::clone(&self.shared.kernels);
+            let kernels = self.kernels()?;
             result = self.draw(&kernels, &context, paint, cancel, |pixels, bytes| {
                 let words = bytes.as_chunks().0;
                 if counts.is_empty() {
@@ -162,6 +206,7 @@ impl Prepared for PreparedTiles {
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
+        self.end_gesture()?;
         let outcome = edit::apply(&mut self.scene, &mut self.device, edit)?;
         let SceneBufferEdit::Applied(effect) = outcome else {
             self.upload(Packing::of(&self.scene.scene))?;
@@ -174,21 +219,35 @@ impl Prepared for PreparedTiles {
                 moved_bytes: self.scene.buffers.as_ref().map_or(0, bytes),
             });
         };
-        if effect.changes_appearance {
-            self.target.picture = None;
-        }
-        if let Some(buffers) = &self.scene.buffers {
-            self.target.mark_dirty(&effect.dirty, &buffers.cluster_list);
-        }
-        if effect.loses_lines {
-            self.target.cached_lines = None;
-        }
-        if effect.replaces_buffers {
-            self.target.drop_bindings();
-        }
         Ok(EditOutcome::InPlace {
-            moved_bytes: effect.moved_bytes,
+            moved_bytes: self.take_effect(&effect),
         })
+    }
+
+    fn show_gesture(&mut self, gesture: Option<&Gesture>) -> Result<EditOutcome, RenderError> {
+        self.recover()?;
+        let mut moved_bytes = 0;
+        let shown = self.scene.gesture.as_ref();
+        let is_shown = gesture.is_some_and(|new| shown.is_some_and(|shown| shown.is_of(new)));
+        if !is_shown {
+            moved_bytes += self.end_gesture()?;
+        }
+        if let Some(gesture) = gesture {
+            if !is_shown {
+                let effect = gesture::begin(&mut self.scene, &mut self.device, gesture)?;
+                moved_bytes += self.take_effect(&effect);
+            }
+            self.mark_gesture();
+            match gesture::map(&mut self.scene, &self.device, gesture.by) {
+                Ok(effect) => moved_bytes += self.take_effect(&effect),
+                Err(error) => {
+                    self.end_gesture()?;
+                    return Err(error);
+                }
+            }
+            self.mark_gesture();
+        }
+        Ok(EditOutcome::InPlace { moved_bytes })
     }
 
     fn preparation(&self) -> &Preparation {

@@ -5,8 +5,8 @@ use std::sync::{Arc, LazyLock};
 
 use guideway_layout::{Layout, NewPath, OwnStyle};
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, LineRule, Method, Prepared, RenderError, Report, Scene,
-    SceneOptions, Shading, Style, View, density::ToneMap,
+    Budget, Cancel, EditOutcome, Frame, FrameSize, LineRule, Method, Prepared, RenderError, Report,
+    Scene, SceneOptions, Shading, Style, View, density::ToneMap,
 };
 use guideway_spline::{Point, Runs};
 
@@ -21,6 +21,7 @@ use crate::{DeviceError, GpuOptions};
 mod colors;
 mod edits;
 mod exact_points;
+mod gesture;
 mod line_cache;
 mod long_lists;
 mod work;

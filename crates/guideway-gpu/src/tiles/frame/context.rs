@@ -214,6 +214,8 @@ impl<'a> FrameContext<'a> {
             window_low_px,
             window_high_px,
             lod_origin_px: [origin.x as f32, origin.y as f32],
+            map_x: self.facts.map[0],
+            map_y: self.facts.map[1],
             lod_px_per_m: lod.px_per_m as f32,
             lod_px_per_px: ratio as f32,
             px_per_lod_px: ratio.recip() as f32,

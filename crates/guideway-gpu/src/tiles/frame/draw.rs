@@ -294,7 +294,11 @@ pub(crate) fn count_drawn_paths(
     let is_visible = |path: &&u32| {
         let hull = paths.get(**path as usize).hull_bounds();
         let width_m = scene.scene.width_m(**path);
-        hull.is_some_and(|hull| hull.intersects(frame.visible_bounds_m(width_m)))
+        let shown = |hull| match &scene.gesture {
+            Some(gesture) => gesture.shown_hull(**path, hull),
+            None => hull,
+        };
+        hull.is_some_and(|hull| shown(hull).intersects(frame.visible_bounds_m(width_m)))
     };
     let others = scene.multi_stroke_paths.iter().filter(is_visible);
     single_stroke_paths + others.count() as u64

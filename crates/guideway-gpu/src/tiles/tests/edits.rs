@@ -316,3 +316,62 @@ fn scrolls_an_edited_picture() {
         assert!(worst <= Some(8), "{worst:?} {edit:?}");
     }
 }
+
+#[test]
+fn paths_that_are_shown_again_upload_no_points() {
+    let Some(tiles) = tiles() else { return };
+    let scene = mixed(6400, 2.0);
+    let mut pair = Pair::new(&tiles, &scene, Style::default());
+    let paths: Arc<[u32]> = (0..6400).step_by(10).collect();
+    let states = |state| Edit::SetStates(paths.iter().map(|&path| (path, state)).collect());
+    let [hide, show] = [PathState::Removed, PathState::Shown].map(states);
+    let (before, _) = pair.check(&all());
+    let bytes = |pair: &mut Pair, edit: &Edit| match pair.cached.edit(edit).unwrap() {
+        EditOutcome::InPlace { moved_bytes } => {
+            pair.uncached.edit(edit).unwrap();
+            moved_bytes
+        }
+        EditOutcome::NotInPlace => panic!("not in place"),
+    };
+    // A stroke per path, with its place.
+    let most = 640 * (8 + 12);
+    assert!(bytes(&mut pair, &hide) <= most);
+    assert!(pair.check(&all()).0 != before);
+    assert!(bytes(&mut pair, &show) <= most);
+    assert!(pair.check(&all()).0 == before);
+    // Edited while they are hidden, they need their new points.
+    let moved = Edit::Transform {
+        paths: Arc::clone(&paths),
+        by: Affine::translation(Point::new(0.5, 0.0)),
+    };
+    bytes(&mut pair, &hide);
+    bytes(&mut pair, &moved);
+    assert!(bytes(&mut pair, &show) > most);
+    let (shown, _) = pair.check(&all());
+    let mut other = Pair::new(&tiles, &scene, Style::default());
+    other.edit(&moved);
+    assert!(other.check(&all()).0 == shown && shown != before);
+}
+
+#[test]
+fn edit_of_many_paths_equals_a_fresh_preparation_to_the_bit() {
+    let Some(tiles) = tiles() else { return };
+    let (scene, style) = (plain(70_000, 0.2), Style::default());
+    let mut edited = prepared(&tiles, &scene);
+    picture(&mut edited, &all(), &style);
+    let turn = Edit::Transform {
+        paths: (0..70_000).collect(),
+        by: Affine::rotation(0.4, Point::new(50.0, 30.0)),
+    };
+    let mut after = Scene::clone(&scene);
+    let undo = after.edit_with_undo(&turn, |_| {}).unwrap();
+    edited.edit(&turn).unwrap();
+    let mut fresh = prepared(&tiles, &Arc::new(after));
+    for view in [all(), view([50.0, 30.0], 40.0)] {
+        let (drawn, _) = picture(&mut edited, &view, &style);
+        assert!(drawn == picture(&mut fresh, &view, &style).0);
+    }
+    edited.edit(&undo).unwrap();
+    let (drawn, _) = picture(&mut edited, &all(), &style);
+    assert!(drawn == picture(&mut prepared(&tiles, &scene), &all(), &style).0);
+}

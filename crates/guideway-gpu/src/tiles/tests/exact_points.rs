@@ -11,7 +11,7 @@ use super::*;
 
 /// Dense paths, some of several strokes (two of them in the center of [`near`]), and one path two
 /// kilometers away: quantization steps are small beside the scene.
-fn dense(paths: u32, reach_m: f64) -> Layout {
+pub(super) fn dense(paths: u32, reach_m: f64) -> Layout {
     let mut layout = layout(paths, reach_m);
     for row in (0..paths).step_by(100) {
         let (at, step_m) = match row {
@@ -41,7 +41,7 @@ fn push(layout: &mut Layout, add: impl FnOnce(&mut Runs)) {
     });
 }
 
-fn scene(layout: Layout) -> Arc<Scene> {
+pub(super) fn scene(layout: Layout) -> Arc<Scene> {
     Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
 }
 
@@ -78,7 +78,7 @@ fn far_view() -> View {
 }
 
 /// Clusters with exact points on the device.
-fn exact_clusters(prepared: &PreparedTiles) -> BTreeSet<u32> {
+pub(super) fn exact_clusters(prepared: &PreparedTiles) -> BTreeSet<u32> {
     let buffers = prepared.scene.buffers.as_ref().unwrap();
     let all = 0..buffers.cluster_list.len() as u32;
     let Some(exact) = &buffers.exact_points else {
@@ -95,7 +95,7 @@ fn rounded_clusters(prepared: &PreparedTiles) -> usize {
 }
 
 /// Mean and greatest difference of channels.
-fn difference(a: &Frame, b: &Frame) -> (f64, u8) {
+pub(super) fn difference(a: &Frame, b: &Frame) -> (f64, u8) {
     let pairs = a.pixels().iter().flatten().zip(b.pixels().iter().flatten());
     let off: Vec<_> = pairs.map(|(a, b)| a.abs_diff(*b)).collect();
     let sum: f64 = off.iter().map(|off| f64::from(*off)).sum();

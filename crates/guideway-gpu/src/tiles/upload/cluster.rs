@@ -1,6 +1,6 @@
 //! Clusters: a common origin for neighboring strokes, and the quantization of their points.
 
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Affine, Bounds, Point};
 
 use crate::tiles::layouts::{Cluster, PointFormat};
 
@@ -29,12 +29,10 @@ impl ClusterOrigin {
 impl Cluster {
     /// A cluster without strokes, whose box contains `bounds`.
     pub(crate) fn within(bounds: Bounds<f64>, step_m: f32) -> Self {
-        let origin = bounds.center();
-        let high = origin.to_f32();
-        let low = (origin - high.to_f64()).to_f32();
+        let [origin_high_m, origin_low_m] = split(bounds.center());
         let mut cluster = Self {
-            origin_high_m: [high.x, high.y],
-            origin_low_m: [low.x, low.y],
+            origin_high_m,
+            origin_low_m,
             low_m: [0.0; 2],
             high_m: [0.0; 2],
             widest_m: -1.0,
@@ -43,6 +41,8 @@ impl Cluster {
             points: 0,
             first_stroke: 0,
             strokes: 0,
+            stored_step_m: step_m,
+            is_mapped: 0,
         };
         let local = ClusterOrigin::of(&cluster);
         // Rounding must not shrink the box.
@@ -50,6 +50,41 @@ impl Cluster {
         cluster.low_m = grown(local.local_m(bounds.min), -1.0);
         cluster.high_m = grown(local.local_m(bounds.max), 1.0);
         cluster
+    }
+
+    /// The cluster as a map shows its points, by the same points.
+    pub(crate) fn mapped(&self, by: Affine) -> Self {
+        let origin_m = by.apply(ClusterOrigin::of(self).origin_m);
+        let [origin_high_m, origin_low_m] = split(origin_m);
+        let moved = Self {
+            origin_high_m,
+            origin_low_m,
+            ..*self
+        };
+        if by.as_translation().is_some() {
+            return moved;
+        }
+        let linear = Affine {
+            origin: Point::default(),
+            ..by
+        };
+        let [min, max] = [self.low_m, self.high_m].map(|[x, y]| Point::new(x, y).to_f64());
+        let corners = Bounds { min, max }.corners();
+        let Some(local) = Bounds::of_points(corners.map(|p| linear.apply(p))) else {
+            return moved;
+        };
+        // The device maps in single precision: each coordinate is a sum of two rounded products.
+        let reach_m = corners[0].norm().max(corners[1].norm()) * stretch(by);
+        let local = local.inflated(4.0 * f64::from(f32::EPSILON) * reach_m);
+        let [low, high] = [local.min, local.max].map(Point::to_f32);
+        Self {
+            low_m: [low.x, low.y],
+            high_m: [high.x, high.y],
+            // A smaller step may leave the cluster where it is drawn from.
+            step_m: self.stored_step_m * stretch(by).max(1.0) as f32,
+            is_mapped: 1,
+            ..moved
+        }
     }
 
     /// Format of its points.
@@ -95,4 +130,19 @@ impl Cluster {
         let ends = self.low_m.into_iter().chain(self.high_m);
         ends.map(f32::abs).fold(0.0, f32::max)
     }
+}
+
+/// Splits a place into two floats per axis that together are nearly as exact as a double.
+fn split(place_m: Point<f64>) -> [[f32; 2]; 2] {
+    let high = place_m.to_f32();
+    let low = (place_m - high.to_f64()).to_f32();
+    [[high.x, high.y], [low.x, low.y]]
+}
+
+/// Greatest factor by which a map stretches a vector: its larger singular value.
+fn stretch(by: Affine) -> f64 {
+    let squares = by.x.dot(by.x) + by.y.dot(by.y);
+    let area = by.x.cross(by.y);
+    let root = (squares * squares - 4.0 * area * area).max(0.0).sqrt();
+    ((squares + root) / 2.0).sqrt()
 }

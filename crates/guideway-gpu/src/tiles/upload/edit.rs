@@ -22,6 +22,11 @@ const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
 /// Unused points from which on the scene is packed again: this many, or a quarter of all points.
 const MAX_UNUSED_POINTS: usize = 1 << 16;
 
+/// Changed paths from which on the scene is packed again, by all threads: this many, and this part
+/// of all strokes.
+const MIN_PACKED_PATHS: usize = 1 << 16;
+const PACKED_PART: usize = 4;
+
 /// Result of an edit.
 pub(crate) enum SceneBufferEdit {
     /// The buffers are up to date.
@@ -60,23 +65,36 @@ pub(crate) fn apply(
     uploaded.is_incomplete = true;
     let new_rows = first_new..uploaded.scene.row_count() as u32;
     let rows: Vec<u32> = edit.paths().chain(new_rows).collect();
-    let keeps_styles = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
+    let are_new = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
     let mut effect = EditEffect::default();
-    if !keeps_styles {
+    if !are_new {
         let before = uploaded.facts.appearance();
         uploaded.facts.refresh_appearance(&uploaded.scene);
         effect.changes_appearance =
             matches!(edit, Edit::Restyle(_)) || uploaded.facts.appearance() != before;
+    }
+    let strokes = uploaded.stroke_count() as usize;
+    if are_new && rows.len() >= MIN_PACKED_PATHS.max(strokes / PACKED_PART) {
+        return Ok(SceneBufferEdit::NeedsUpload);
     }
     let has_ranks =
         |buffers: &SceneBuffers| rows.iter().all(|&row| buffers.ranks.rank(row).is_some());
     if !uploaded.buffers.as_ref().is_some_and(has_ranks) {
         return Ok(SceneBufferEdit::NeedsUpload);
     }
+    let has_styles = |buffers: &SceneBuffers| {
+        let styles = buffers.style_count as usize;
+        styles > 1 && !uploaded.facts.is_plain && styles == buffers.ranks.count(&uploaded.scene)
+    };
+    // A state does not change a style, but may change whether all paths share one.
+    let keeps_styles = are_new
+        || matches!(edit, Edit::SetStates(_)) && uploaded.buffers.as_ref().is_some_and(has_styles);
     if !keeps_styles {
         write_styles(uploaded, device, &rows, &mut effect)?;
     }
-    if !matches!(edit, Edit::Restyle(_)) && !write_curves(uploaded, device, &rows, &mut effect)? {
+    let is_written = matches!(edit, Edit::Restyle(_))
+        || write_curves(uploaded, device, (&rows, are_new), &mut effect)?;
+    if !is_written {
         return Ok(SceneBufferEdit::NeedsUpload);
     }
     uploaded.is_incomplete = false;
@@ -131,11 +149,12 @@ fn write_styles(
     send(uploaded, device, patches, Vec::new(), effect)
 }
 
-/// Writes curves of rows. `false` if the scene had better be packed anew.
+/// Writes curves of rows: new ones, or those that are shown or hidden. `false` if the scene had
+/// better be packed anew.
 fn write_curves(
     uploaded: &mut UploadedScene,
     device: &mut DeviceContext,
-    rows: &[u32],
+    (rows, are_new): (&[u32], bool),
     effect: &mut EditEffect,
 ) -> Result<bool, RenderError> {
     let Some(buffers) = &mut uploaded.buffers else {
@@ -164,6 +183,15 @@ fn write_curves(
         }
         let strokes = path_strokes.strokes(row);
         let layout = scene.layout();
+        let hidden_edits = &mut uploaded.hidden_edits;
+        if are_new && parts.is_empty() {
+            hidden_edits.insert(row);
+        }
+        let has_points = !parts.is_empty() && !hidden_edits.remove(&row);
+        if has_points && !are_new && parts.len() == strokes.len() {
+            show_again(buffers, &parts, strokes, &mut patches);
+            continue;
+        }
         if fits_in_place(buffers, path_strokes, layout, &parts, strokes, &mut scratch) {
             write_in_place(buffers, &parts, strokes, &scratch, &mut patches);
             continue;
@@ -265,6 +293,24 @@ fn fits_in_place(
         }
     }
     true
+}
+
+/// Shows the strokes of a path whose points are still there.
+fn show_again(
+    buffers: &mut SceneBuffers,
+    parts: &[PathPart],
+    strokes: &[u32],
+    patches: &mut EditPatches,
+) {
+    for (part, &stroke) in parts.iter().zip(strokes) {
+        let hidden = &mut buffers.stroke_list[stroke as usize];
+        let shown = part.stroke(hidden.first_point());
+        if *hidden != shown {
+            *hidden = shown;
+            patches.strokes.push(stroke);
+            patches.dirty.add(cluster_of(buffers, stroke));
+        }
+    }
 }
 
 /// Writes new points in the place of the old ones.

@@ -15,6 +15,8 @@ pub(crate) struct SceneFacts {
     pub(crate) reach_m: f64,
     /// Greatest quantization step of a cluster.
     pub(crate) greatest_step_m: f32,
+    /// Images of the vectors (1, 0) and (0, 1) in the map of a gesture.
+    pub(crate) map: [[f32; 2]; 2],
     /// Greatest width of a path; `None` if no path has its own.
     pub(crate) widest_m: Option<f32>,
     /// True if all paths have one color, and none a width of its own.
@@ -33,6 +35,7 @@ impl SceneFacts {
             styles: 0,
             reach_m: 0.0,
             greatest_step_m: 0.0,
+            map: [[1.0, 0.0], [0.0, 1.0]],
             widest_m: widths.reduce(f32::max),
             is_plain: is_plain(scene),
             paint: PaintMode::of(scene),

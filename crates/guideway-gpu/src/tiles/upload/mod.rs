@@ -10,6 +10,7 @@
 //! | `path_strokes` | finds the strokes of a path, for edits |
 //! | `uploaded_scene` | the scene and all of the above |
 //! | `near_upload` | uploads exact points of near clusters |
+//! | `gesture` | shows the paths of a gesture by mapping their clusters |
 //! | `edit`, `edit_patches` | applies an edit; `dirty_clusters` are the clusters it changes |
 
 pub(crate) mod cluster;
@@ -18,6 +19,7 @@ pub(crate) mod edit;
 mod edit_patches;
 pub(crate) mod exact_points;
 pub(crate) mod facts;
+pub(crate) mod gesture;
 pub(crate) mod near_upload;
 pub(crate) mod pack;
 pub(crate) mod path_parts;

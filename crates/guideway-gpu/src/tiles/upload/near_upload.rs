@@ -61,7 +61,10 @@ fn append_cluster(
     let Some(buffers) = &scene.buffers else {
         return;
     };
-    let cluster = &buffers.cluster_list[cluster as usize];
+    let index = cluster as usize;
+    let mapped = scene.gesture.as_ref();
+    let at_rest = mapped.and_then(|gesture| gesture.at_rest(index));
+    let cluster = at_rest.unwrap_or(&buffers.cluster_list[index]);
     let origin = ClusterOrigin::of(cluster);
     let first = points_m.len();
     points_m.resize(first + cluster.points as usize, [0.0; 2]);

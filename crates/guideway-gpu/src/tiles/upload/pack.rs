@@ -4,6 +4,7 @@
 use guideway_layout::Layout;
 use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Bounds, Point, hilbert};
+use rayon::prelude::*;
 
 use super::cluster::ClusterOrigin;
 use super::path_parts::PathPart;
@@ -16,6 +17,9 @@ const STEPS_PER_SCENE: f64 = (1 << 20) as f64;
 /// Steps from the origin of a cluster to the farthest place that its points may move to. Derived:
 /// slightly less than 16 bits hold.
 const MAX_STEPS: f64 = 32_000.0;
+
+/// Parts that one task packs: whole clusters.
+const TASK_PARTS: usize = 256 * CLUSTER_STROKES as usize;
 
 /// Packing parameters of a scene while it is on the device.
 #[derive(Clone, Copy)]
@@ -59,12 +63,16 @@ impl Packing {
     /// Sorts parts along the Hilbert curve, by the midpoint of their ends. The strokes of a path
     /// lie on the device in this order, so the order of two parts must not depend on the others.
     pub(crate) fn sort(&self, layout: &Layout, parts: &mut [PathPart]) {
-        parts.sort_by_cached_key(|part| {
+        let place = |part: &PathPart| {
             let mut points = part.points(layout);
             let first = points.next().unwrap_or_default();
             let last = points.last().unwrap_or(first);
             hilbert(first + (last - first) * 0.5, self.bounds_m)
-        });
+        };
+        match parts.len() {
+            0..=TASK_PARTS => parts.sort_by_cached_key(place),
+            _ => parts.par_sort_by_cached_key(place),
+        }
     }
 
     /// The step of a cluster of this size; 0 if its points stay exact.
@@ -86,10 +94,24 @@ pub(crate) fn max_move_m(size_m: f64) -> f64 {
 }
 
 impl Packed {
-    /// Packs parts. Neighbors in the world become neighbors in memory.
+    /// Packs parts. Neighbors in the world become neighbors in memory. All threads share the work.
     pub(crate) fn of(scene: &Scene, mut parts: Vec<PathPart>, packing: Packing) -> Self {
-        let (mut packed, mut exact) = (Self::default(), Self::default());
         packing.sort(scene.layout(), &mut parts);
+        let tasks = parts.par_chunks(TASK_PARTS);
+        let tasks = tasks.map(|parts| Self::of_sorted(scene, parts, packing));
+        let all = tasks.collect::<Vec<_>>();
+        let (mut packed, mut exact) = (Self::default(), Self::default());
+        for [more, more_exact] in all {
+            packed.append(more);
+            exact.append(more_exact);
+        }
+        packed.append(exact);
+        packed
+    }
+
+    /// Packs sorted parts: clusters of rounded and of exact points.
+    fn of_sorted(scene: &Scene, parts: &[PathPart], packing: Packing) -> [Self; 2] {
+        let (mut packed, mut exact) = (Self::default(), Self::default());
         for parts in parts.chunks(CLUSTER_STROKES as usize) {
             let points = parts.iter().flat_map(|part| part.points(scene.layout()));
             let Some(bounds) = Bounds::of_points(points) else {
@@ -101,15 +123,22 @@ impl Packed {
                 PointFormat::Exact => exact.add(scene, cluster, parts),
             }
         }
-        let strokes = packed.strokes.len() as u32;
-        packed.strokes.append(&mut exact.strokes);
-        let shifted = exact.clusters.into_iter().map(|cluster| Cluster {
-            first_stroke: cluster.first_stroke + strokes,
+        [packed, exact]
+    }
+
+    /// Appends other clusters with their strokes and points.
+    fn append(&mut self, other: Self) {
+        let first_stroke = self.strokes.len() as u32;
+        let first_points = [self.rounded.len() as u32, self.exact_m.len() as u32];
+        let shifted = other.clusters.into_iter().map(|cluster| Cluster {
+            first_stroke: cluster.first_stroke + first_stroke,
+            first_point: cluster.first_point + first_points[cluster.format() as usize],
             ..cluster
         });
-        packed.clusters.extend(shifted);
-        packed.exact_m = exact.exact_m;
-        packed
+        self.clusters.extend(shifted);
+        self.strokes.extend_from_slice(&other.strokes);
+        self.rounded.extend_from_slice(&other.rounded);
+        self.exact_m.extend_from_slice(&other.exact_m);
     }
 
     fn add(&mut self, scene: &Scene, mut cluster: Cluster, parts: &[PathPart]) {

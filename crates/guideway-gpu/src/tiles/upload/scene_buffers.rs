@@ -1,6 +1,7 @@
 //! The buffers of a scene, with host copies of strokes and clusters for edits.
 
 use guideway_scene::{RenderError, Rgba, Scene};
+use rayon::prelude::*;
 use wgpu::BufferUsages;
 
 use super::draw_ranks::DrawRanks;
@@ -15,6 +16,9 @@ use crate::tiles::options::NAME;
 
 /// Least capacity of a point buffer for edited paths, in points.
 const MIN_EDIT_POINTS: u32 = 1 << 14;
+
+/// Paths that one task cuts into parts.
+const TASK_PATHS: usize = 1 << 14;
 
 /// Buffers of a scene.
 pub(crate) struct SceneBuffers {
@@ -50,28 +54,7 @@ impl SceneBuffers {
         let strokes_bytes = size_of_val(packed.strokes.as_slice()) as u64;
         check_binding(gpu, "the strokes", strokes_bytes)?;
         check_binding(gpu, "the styles", size_of_val(style_list.as_slice()) as u64)?;
-        let mut point_buffers = Vec::new();
-        for range in buffer_ranges(&packed.clusters, gpu.max_binding_bytes()) {
-            let clusters = &mut packed.clusters[range.start as usize..range.end as usize];
-            let first = clusters[0].first_point;
-            let last = clusters[clusters.len() - 1];
-            let end = last.first_point + last.points;
-            for cluster in clusters.iter_mut() {
-                cluster.first_point -= first;
-            }
-            let format = clusters[0].format();
-            let distance = ViewDistance::Far {
-                min_step_m: clusters.iter().map(|c| c.step_m).fold(f32::MAX, f32::min),
-            };
-            let (what, points) = ("the control points", first as usize..end as usize);
-            let points = match format {
-                PointFormat::Rounded => memory.upload(what, &packed.rounded[points])?,
-                PointFormat::Exact => memory.upload(what, &packed.exact_m[points])?,
-            };
-            let mut buffer = PointBuffer::new(memory, points, format, range, distance)?;
-            buffer.used_points = end - first;
-            point_buffers.push(buffer);
-        }
+        let point_buffers = upload_points(gpu, memory, &mut packed, 0)?;
         drop((packed.rounded, packed.exact_m));
         let mut buffers = Self {
             point_buffers,
@@ -145,6 +128,26 @@ impl SceneBuffers {
         Ok(index)
     }
 
+    /// Appends clusters in point buffers of their own. [`Self::grow`] makes room for the lists.
+    pub(crate) fn append_apart(
+        &mut self,
+        gpu: &Gpu,
+        memory: &mut Memory,
+        mut packed: Packed,
+    ) -> Result<(), RenderError> {
+        let first_stroke = self.stroke_list.len() as u32;
+        let first_cluster = self.cluster_list.len() as u32;
+        let points = upload_points(gpu, memory, &mut packed, first_cluster)?;
+        self.point_buffers.extend(points);
+        self.stroke_list.append(&mut packed.strokes);
+        let shifted = packed.clusters.iter().map(|cluster| Cluster {
+            first_stroke: cluster.first_stroke + first_stroke,
+            ..*cluster
+        });
+        self.cluster_list.extend(shifted);
+        Ok(())
+    }
+
     /// All point buffers, the exact points of near clusters last.
     pub(crate) fn all_point_buffers(&self) -> impl Iterator<Item = &PointBuffer> {
         let exact = self.exact_points.iter().map(|exact| &exact.buffer);
@@ -181,6 +184,40 @@ impl SceneBuffers {
     }
 }
 
+/// Uploads the points of packed clusters, which become those from `first_cluster` on, in as many
+/// buffers as binding limits require. The clusters then index their buffer.
+fn upload_points(
+    gpu: &Gpu,
+    memory: &mut Memory,
+    packed: &mut Packed,
+    first_cluster: u32,
+) -> Result<Vec<PointBuffer>, RenderError> {
+    let mut buffers = Vec::new();
+    for range in buffer_ranges(&packed.clusters, gpu.max_binding_bytes()) {
+        let clusters = &mut packed.clusters[range.start as usize..range.end as usize];
+        let first = clusters[0].first_point;
+        let last = clusters[clusters.len() - 1];
+        let end = last.first_point + last.points;
+        for cluster in clusters.iter_mut() {
+            cluster.first_point -= first;
+        }
+        let format = clusters[0].format();
+        let distance = ViewDistance::Far {
+            min_step_m: clusters.iter().map(|c| c.step_m).fold(f32::MAX, f32::min),
+        };
+        let (what, points) = ("the control points", first as usize..end as usize);
+        let points = match format {
+            PointFormat::Rounded => memory.upload(what, &packed.rounded[points])?,
+            PointFormat::Exact => memory.upload(what, &packed.exact_m[points])?,
+        };
+        let range = range.start + first_cluster..range.end + first_cluster;
+        let mut buffer = PointBuffer::new(memory, points, format, range, distance)?;
+        buffer.used_points = end - first;
+        buffers.push(buffer);
+    }
+    Ok(buffers)
+}
+
 /// Uploads values with room for a quarter more.
 fn upload_with_spare<T: bytemuck::Pod>(
     memory: &mut Memory,
@@ -194,13 +231,16 @@ fn upload_with_spare<T: bytemuck::Pod>(
 
 /// The parts of all drawn paths.
 pub(crate) fn all_parts(scene: &Scene, ranks: &DrawRanks) -> Vec<PathPart> {
-    let mut parts = Vec::with_capacity(scene.draw_order().len());
-    for &path in scene.draw_order() {
-        if let Some(rank) = ranks.rank(path) {
-            PathPart::of_path(scene.layout(), path, rank, &mut parts);
+    let tasks = scene.draw_order().par_chunks(TASK_PATHS).map(|paths| {
+        let mut parts = Vec::with_capacity(paths.len());
+        for &path in paths {
+            if let Some(rank) = ranks.rank(path) {
+                PathPart::of_path(scene.layout(), path, rank, &mut parts);
+            }
         }
-    }
-    parts
+        parts
+    });
+    tasks.collect::<Vec<_>>().concat()
 }
 
 /// The style of each rank; a single one if all paths look alike.

@@ -8,6 +8,7 @@ use guideway_scene::{RenderError, Scene, Stage, elapsed_ms};
 
 use super::draw_ranks::DrawRanks;
 use super::facts::SceneFacts;
+use super::gesture::ShownGesture;
 use super::pack::{Packed, Packing};
 use super::path_strokes::PathStrokes;
 use super::scene_buffers::{SceneBuffers, all_parts};
@@ -23,9 +24,13 @@ pub(crate) struct UploadedScene {
     pub(crate) packing: Packing,
     /// Paths of several strokes: the device does not count them.
     pub(crate) multi_stroke_paths: BTreeSet<u32>,
+    /// Hidden paths whose curves have changed since the device got their points.
+    pub(crate) hidden_edits: BTreeSet<u32>,
     /// `None` until an edit or a near view needs it.
     pub(crate) path_strokes: Option<PathStrokes>,
     pub(crate) patcher: Option<Patcher>,
+    /// The gesture that the buffers show.
+    pub(crate) gesture: Option<ShownGesture>,
     /// True if an upload or an edit failed halfway, so that buffers may be inconsistent.
     pub(crate) is_incomplete: bool,
 }
@@ -37,8 +42,10 @@ impl UploadedScene {
             facts: SceneFacts::of(&scene),
             packing: Packing::of(&scene),
             multi_stroke_paths: BTreeSet::new(),
+            hidden_edits: BTreeSet::new(),
             path_strokes: None,
             patcher: None,
+            gesture: None,
             buffers: None,
             scene,
             is_incomplete: true,
@@ -52,7 +59,8 @@ impl UploadedScene {
         device: &mut DeviceContext,
         packing: Packing,
     ) -> Result<Vec<Stage>, RenderError> {
-        (self.buffers, self.path_strokes) = (None, None);
+        (self.buffers, self.path_strokes, self.gesture) = (None, None, None);
+        self.hidden_edits.clear();
         self.packing = packing;
         self.is_incomplete = true;
         self.facts = SceneFacts::of(&self.scene);

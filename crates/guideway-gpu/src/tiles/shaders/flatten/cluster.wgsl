@@ -12,16 +12,31 @@ struct Cluster {
     high_m: vec2f,
     // Greatest width of its strokes; negative if none has its own.
     widest_m: f32,
-    // Quantization step of its points; 0 if they are exact.
+    // Quantization step of its points as they are shown; 0 if they are exact.
     step_m: f32,
     // Its range of control points in their buffer, and its range of strokes.
     first_point: u32,
     points: u32,
     first_stroke: u32,
     strokes: u32,
+    // Quantization step of its points as they are stored.
+    stored_step_m: f32,
+    // 1 if the map of a gesture turns, mirrors or scales its points about the origin.
+    is_mapped: u32,
 }
 
-const CLUSTER_WORDS: u32 = 14u;
+const CLUSTER_WORDS: u32 = 16u;
+
+// Frames without such a map compile it away.
+override MAPS: bool = false;
+
+// Maps a vector from the origin of a cluster to where a gesture shows it.
+fn shown_vector(is_mapped: u32, v: vec2f) -> vec2f {
+    if MAPS && is_mapped != 0u {
+        return frame.map_x * v.x + frame.map_y * v.y;
+    }
+    return v;
+}
 
 // Vector from the LOD center to the origin of a cluster. Subtracting the high parts is exact.
 fn cluster_offset_m(cluster: Cluster) -> vec2f {

@@ -6,14 +6,16 @@
 
 @group(0) @binding(2) var<storage, read> points: array<vec2u>;
 
-// A stroke: its first control point, and the vector from the LOD center to its cluster's origin.
+// A stroke: its first control point, the vector from the LOD center to its cluster's
+// origin, and the flag of its cluster.
 struct Curve {
     first_point: u32,
     cluster_offset_m: vec2f,
+    is_mapped: u32,
 }
 
 fn stroke_curve(cluster: Cluster, first_point: u32) -> Curve {
-    return Curve(first_point, cluster_offset_m(cluster));
+    return Curve(first_point, cluster_offset_m(cluster), cluster.is_mapped);
 }
 
 fn visible_cluster_count() -> u32 {
@@ -36,5 +38,6 @@ fn cluster_first_point(cluster: Cluster, index: u32) -> u32 {
 // Read again each time: caches hold the points, and workgroup memory would lower the occupancy.
 fn control_px(curve: Curve, index: u32) -> vec2f {
     count_reads(2u);
-    return lod_from_m(bitcast<vec2f>(points[curve.first_point + index]) + curve.cluster_offset_m);
+    let local_m = bitcast<vec2f>(points[curve.first_point + index]);
+    return lod_from_m(shown_vector(curve.is_mapped, local_m) + curve.cluster_offset_m);
 }

@@ -10,11 +10,13 @@ struct Curve {
     first_point: u32,
     origin_px: vec2f,
     step_px: vec2f,
+    is_mapped: u32,
 }
 
 fn stroke_curve(cluster: Cluster, first_point: u32) -> Curve {
     let origin_px = lod_from_m(cluster_offset_m(cluster));
-    return Curve(first_point, origin_px, lod_from_m(vec2f(cluster.step_m)));
+    let step_px = lod_from_m(vec2f(cluster.stored_step_m));
+    return Curve(first_point, origin_px, step_px, cluster.is_mapped);
 }
 
 fn visible_cluster_count() -> u32 {
@@ -35,5 +37,5 @@ fn control_px(curve: Curve, index: u32) -> vec2f {
     let word = bitcast<i32>(points[curve.first_point + index]);
     count_reads(1u);
     let steps = vec2i(word << 16u, word) >> vec2u(16u);
-    return curve.origin_px + curve.step_px * vec2f(steps);
+    return curve.origin_px + curve.step_px * shown_vector(curve.is_mapped, vec2f(steps));
 }

@@ -18,6 +18,9 @@ struct Frame {
     window_high_px: vec2f,
     // Center of the LOD in the picture.
     lod_origin_px: vec2f,
+    // Images of the vectors (1, 0) and (0, 1) in the map of a gesture.
+    map_x: vec2f,
+    map_y: vec2f,
     lod_px_per_m: f32,
     // LOD pixels per picture pixel, and the inverse.
     lod_px_per_px: f32,

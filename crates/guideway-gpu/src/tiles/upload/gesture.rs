@@ -1,0 +1,312 @@
+//! Shows the paths of a gesture where its map leaves them: whole clusters are mapped, and their
+//! points stay. Paths that share a cluster with others get clusters of their own until the end.
+//!
+//! ```text
+//!   before      clusters | A: all selected | B: some selected | C: none |
+//!   meanwhile   clusters | A: mapped       | B: these hidden  | C       | D: those of B, mapped |
+//! ```
+
+use guideway_scene::{Gesture, GesturePaths, RenderError};
+use guideway_spline::{Affine, Bounds};
+
+use super::edit::EditEffect;
+use super::edit_patches::EditPatches;
+use super::facts::SceneFacts;
+use super::pack::Packed;
+use super::path_parts::PathPart;
+use super::path_strokes::{PathStrokes, cluster_of};
+use super::point_buffer::ViewDistance;
+use super::scene_buffers::SceneBuffers;
+use super::uploaded_scene::UploadedScene;
+use crate::tiles::device_context::{DeviceContext, device_error};
+use crate::tiles::layouts::{Cluster, Stroke};
+
+/// The gesture that the buffers of a scene show, and how they were before.
+pub(crate) struct ShownGesture {
+    paths: GesturePaths,
+    by: Affine,
+    is_selected: Vec<bool>,
+    /// Mapped clusters without the map, ascending.
+    at_rest: Vec<(usize, Cluster)>,
+    /// Strokes that are drawn from clusters of the gesture instead.
+    hidden: Vec<(u32, Stroke)>,
+    /// Number of clusters, strokes and point buffers of the scene.
+    clusters: usize,
+    strokes: usize,
+    point_buffers: usize,
+    facts: SceneFacts,
+}
+
+impl ShownGesture {
+    /// Returns `true` if a gesture is this one, with any map.
+    pub(crate) fn is_of(&self, gesture: &Gesture) -> bool {
+        self.paths.are_of(gesture)
+    }
+
+    /// Returns `true` if the map does more than move paths.
+    pub(crate) fn turns(&self) -> bool {
+        self.by.as_translation().is_none()
+    }
+
+    /// Indices of the mapped clusters.
+    pub(crate) fn mapped_clusters(&self) -> impl Iterator<Item = usize> {
+        self.at_rest.iter().map(|(index, _)| *index)
+    }
+
+    /// A mapped cluster without the map.
+    pub(crate) fn at_rest(&self, index: usize) -> Option<&Cluster> {
+        let found = self
+            .at_rest
+            .binary_search_by_key(&index, |(index, _)| *index);
+        Some(&self.at_rest[found.ok()?].1)
+    }
+
+    /// A box that holds the control points of a path as they are shown.
+    pub(crate) fn shown_hull(&self, path: u32, hull: Bounds<f64>) -> Bounds<f64> {
+        match self.is_selected.get(path as usize) {
+            Some(true) => {
+                let corners = hull.corners().map(|p| self.by.apply(p));
+                Bounds::of_points(corners).unwrap_or(hull)
+            }
+            _ => hull,
+        }
+    }
+
+    /// The range of clusters that holds all mapped ones.
+    fn mapped_range(&self) -> std::ops::Range<usize> {
+        let ends = (self.at_rest.first(), self.at_rest.last());
+        match ends {
+            (Some((first, _)), Some((last, _))) => *first..last + 1,
+            _ => 0..0,
+        }
+    }
+}
+
+/// Paths of a gesture by the clusters that hold them.
+struct Selection {
+    /// Clusters that draw no other path.
+    whole: Vec<usize>,
+    /// Paths with a stroke in another cluster, ascending.
+    split_paths: Vec<u32>,
+    /// All strokes of these paths, ascending.
+    split_strokes: Vec<u32>,
+}
+
+impl Selection {
+    fn of(buffers: &SceneBuffers, is_selected: &[bool]) -> Self {
+        let row = |stroke: &Stroke| buffers.ranks.row(stroke.rank) as usize;
+        let is_part = |stroke: &&Stroke| stroke.is_drawn() && is_selected[row(stroke)];
+        let mut is_split = vec![false; is_selected.len()];
+        let mut whole = Vec::new();
+        for (index, cluster) in buffers.cluster_list.iter().enumerate() {
+            let first = cluster.first_stroke as usize;
+            let strokes = &buffers.stroke_list[first..first + cluster.strokes as usize];
+            let drawn = strokes.iter().filter(|stroke| stroke.is_drawn()).count();
+            match strokes.iter().filter(is_part).count() {
+                0 => {}
+                parts if parts == drawn => whole.push(index),
+                _ => {
+                    let parts = strokes.iter().filter(is_part);
+                    parts.for_each(|stroke| is_split[row(stroke)] = true);
+                }
+            }
+        }
+        let marked = (0..).zip(&is_split).filter(|(_, is_split)| **is_split);
+        let split_paths: Vec<u32> = marked.map(|(path, _)| path).collect();
+        let is_split = |(_, stroke): &(u32, &Stroke)| stroke.is_drawn() && is_split[row(stroke)];
+        let split_strokes = match split_paths.is_empty() {
+            true => Vec::new(),
+            false => {
+                let split = (0..).zip(&buffers.stroke_list).filter(is_split);
+                split.map(|(index, _)| index).collect()
+            }
+        };
+        Self {
+            whole,
+            split_paths,
+            split_strokes,
+        }
+    }
+}
+
+/// Begins a gesture: its clusters are ready to be mapped. After an error
+/// `UploadedScene::is_incomplete` is set if buffers have changed.
+pub(crate) fn begin(
+    uploaded: &mut UploadedScene,
+    device: &mut DeviceContext,
+    gesture: &Gesture,
+) -> Result<EditEffect, RenderError> {
+    let mut effect = EditEffect::default();
+    let scene = &uploaded.scene;
+    let paths = GesturePaths::begin(scene, gesture).map_err(RenderError::Edit)?;
+    paths.check(gesture.by).map_err(RenderError::Edit)?;
+    let Some(buffers) = &mut uploaded.buffers else {
+        return Ok(effect);
+    };
+    let mut is_selected = vec![false; scene.row_count()];
+    for &path in gesture.paths.iter() {
+        if let Some(is_selected) = is_selected.get_mut(path as usize) {
+            *is_selected = true;
+        }
+    }
+    let selection = Selection::of(buffers, &is_selected);
+    if !uploaded.multi_stroke_paths.is_empty() {
+        // Later it would find the strokes of the gesture, too.
+        let rows = scene.row_count();
+        let path_strokes = &mut uploaded.path_strokes;
+        path_strokes.get_or_insert_with(|| PathStrokes::of(buffers, rows));
+    }
+    let mut parts = Vec::new();
+    for &path in &selection.split_paths {
+        if let Some(rank) = buffers.ranks.rank(path) {
+            PathPart::of_path(scene.layout(), path, rank, &mut parts);
+        }
+    }
+    let packed = Packed::of(scene, parts, uploaded.packing.exact());
+    let [clusters, strokes] = [buffers.cluster_list.len(), buffers.stroke_list.len()];
+    let point_buffers = buffers.point_buffers.len();
+    effect.moved_bytes += size_of_val(packed.exact_m.as_slice()) as u64;
+    buffers.append_apart(&device.gpu, &mut device.memory, packed)?;
+    uploaded.is_incomplete = true;
+    let mut patches = EditPatches::default();
+    let mut hidden = Vec::with_capacity(selection.split_strokes.len());
+    for index in selection.split_strokes {
+        let stroke = &mut buffers.stroke_list[index as usize];
+        hidden.push((index, *stroke));
+        stroke.extent = stroke.first_point();
+        patches.strokes.push(index);
+        patches.dirty.add(cluster_of(buffers, index));
+    }
+    let own = clusters..buffers.cluster_list.len();
+    buffers.count_whole_paths(patches.dirty.iter().chain(own.clone()));
+    let mapped = selection.whole.into_iter().chain(own.clone());
+    let at_rest = mapped.map(|index| (index, buffers.cluster_list[index]));
+    let shown = ShownGesture {
+        paths,
+        by: Affine::IDENTITY,
+        is_selected,
+        at_rest: at_rest.collect(),
+        hidden,
+        clusters,
+        strokes,
+        point_buffers,
+        facts: uploaded.facts,
+    };
+    if !own.is_empty() {
+        effect.loses_lines = buffers.grow(&device.gpu, &mut device.memory)?;
+        effect.replaces_buffers = true;
+        let own_strokes = strokes as u32..buffers.stroke_list.len() as u32;
+        patches.strokes.extend(own_strokes);
+        if effect.loses_lines {
+            effect.moved_bytes += buffers.strokes.bytes() + buffers.clusters.bytes();
+        }
+    }
+    uploaded.facts.clusters = buffers.cluster_list.len() as u32;
+    let is_uploaded = effect.loses_lines;
+    effect.moved_bytes += patches.send(buffers, &mut uploaded.patcher, device, is_uploaded)?;
+    if effect.replaces_buffers {
+        uploaded.write_dispatches(device)?;
+    }
+    effect.dirty = patches.dirty;
+    uploaded.gesture = Some(shown);
+    uploaded.is_incomplete = false;
+    Ok(effect)
+}
+
+/// Shows the paths of the gesture where a map leaves them. The caller marks the mapped clusters as
+/// dirty before, where they were, and after, where they are.
+pub(crate) fn map(
+    uploaded: &mut UploadedScene,
+    device: &DeviceContext,
+    by: Affine,
+) -> Result<EditEffect, RenderError> {
+    let mut effect = EditEffect::default();
+    let (Some(gesture), Some(buffers)) = (&mut uploaded.gesture, &mut uploaded.buffers) else {
+        return Ok(effect);
+    };
+    gesture.paths.check(by).map_err(RenderError::Edit)?;
+    let turned = gesture.turns();
+    gesture.by = by;
+    let facts = &mut uploaded.facts;
+    let step_before_m = facts.greatest_step_m;
+    (facts.reach_m, facts.greatest_step_m) = (gesture.facts.reach_m, gesture.facts.greatest_step_m);
+    facts.map = [by.x, by.y].map(|v| [v.x as f32, v.y as f32]);
+    for (index, cluster) in &gesture.at_rest {
+        let mapped = cluster.mapped(by);
+        facts.reach_m = facts.reach_m.max(f64::from(mapped.reach_m()));
+        facts.greatest_step_m = facts.greatest_step_m.max(mapped.step_m);
+        buffers.cluster_list[*index] = mapped;
+    }
+    // Plans hold the distance of each buffer, and the kernels.
+    effect.replaces_buffers = turned != gesture.turns() || step_before_m != facts.greatest_step_m;
+    if let Some(exact) = &mut buffers.exact_points {
+        let max_step_m = facts.greatest_step_m;
+        exact.buffer.distance = ViewDistance::Near { max_step_m };
+    }
+    let range = gesture.mapped_range();
+    effect.moved_bytes = write_clusters(uploaded, device, range)?;
+    Ok(effect)
+}
+
+/// Ends the gesture, if there is one: the buffers are as before. The caller marks the mapped
+/// clusters as dirty before.
+pub(crate) fn end(
+    uploaded: &mut UploadedScene,
+    device: &mut DeviceContext,
+) -> Result<EditEffect, RenderError> {
+    let mut effect = EditEffect::default();
+    let (Some(gesture), Some(buffers)) = (uploaded.gesture.take(), &mut uploaded.buffers) else {
+        return Ok(effect);
+    };
+    uploaded.is_incomplete = true;
+    uploaded.facts = gesture.facts;
+    let has_own = buffers.cluster_list.len() > gesture.clusters;
+    effect.replaces_buffers = has_own || gesture.turns();
+    effect.loses_lines = has_own;
+    for (index, cluster) in &gesture.at_rest {
+        buffers.cluster_list[*index] = *cluster;
+        if *index < gesture.clusters {
+            effect.dirty.add(*index);
+        }
+    }
+    buffers.cluster_list.truncate(gesture.clusters);
+    buffers.stroke_list.truncate(gesture.strokes);
+    buffers.point_buffers.truncate(gesture.point_buffers);
+    let mut patches = EditPatches::default();
+    for (index, stroke) in &gesture.hidden {
+        buffers.stroke_list[*index as usize] = *stroke;
+        patches.strokes.push(*index);
+        effect.dirty.add(cluster_of(buffers, *index));
+    }
+    if has_own {
+        // They lack the points of hidden strokes.
+        buffers.exact_points = None;
+    }
+    buffers.count_whole_paths(effect.dirty.iter());
+    effect.moved_bytes += patches.send(buffers, &mut uploaded.patcher, device, false)?;
+    let range = gesture.mapped_range();
+    let range = range.start..range.end.min(gesture.clusters);
+    effect.moved_bytes += write_clusters(uploaded, device, range)?;
+    uploaded.is_incomplete = false;
+    Ok(effect)
+}
+
+/// Writes a range of clusters. Returns its bytes.
+fn write_clusters(
+    uploaded: &mut UploadedScene,
+    device: &DeviceContext,
+    range: std::ops::Range<usize>,
+) -> Result<u64, RenderError> {
+    let Some(buffers) = uploaded.buffers.as_ref().filter(|_| !range.is_empty()) else {
+        return Ok(0);
+    };
+    uploaded.is_incomplete = true;
+    let first = range.start as u32;
+    let list = &buffers.cluster_list[range];
+    let runner = &device.runner;
+    let written = runner.write_at("the clusters", &buffers.clusters, first, list);
+    written.map_err(device_error)?;
+    let bytes = size_of_val(list) as u64;
+    uploaded.is_incomplete = false;
+    Ok(bytes)
+}
