@@ -5,7 +5,7 @@ use std::sync::Arc;
 use guideway_scene::{Budget, Cancel, FrameSize, Method, RenderError, Scene, Shading, Style, View};
 use serde::{Deserialize, Serialize};
 
-use crate::edits::{Edits, Moves};
+use crate::edits::{Edits, Moves, Way};
 use crate::measured::MeasureError;
 use crate::runner::{FrameRequest, Frames, Runner};
 use crate::start::{Start, StartError};
@@ -64,6 +64,9 @@ pub struct Comparison {
     pub edit_paths: Option<usize>,
     /// True if each path moves by its own curve.
     pub edit_is_apart: Option<bool>,
+    /// How paths move, with [`Motion::Edit`].
+    #[serde(default)]
+    pub edit_way: Option<Way>,
     /// Unmeasured frames per method after the first.
     pub warmup: usize,
     /// Measured frames per method.
@@ -157,7 +160,8 @@ pub fn compare(
         motion: contest.motion,
         edit_share: is_edited.then_some(contest.edit.share),
         edit_paths: request.edits.as_ref().map(Edits::path_count),
-        edit_is_apart: is_edited.then_some(contest.edit.is_apart),
+        edit_is_apart: is_edited.then_some(contest.edit.way == Way::Apart),
+        edit_way: is_edited.then_some(contest.edit.way),
         warmup: contest.warmup,
         frames: contest.frames,
         memory_bytes: contest.budget.memory_bytes,
@@ -241,7 +245,7 @@ mod tests {
             motion,
             edit: Moves {
                 share: 0.1,
-                is_apart: false,
+                way: Way::Gesture,
             },
             style: Style::default(),
             budget: Budget::default(),

@@ -1,11 +1,12 @@
-//! Builds the edits of [`crate::Motion::Edit`]: a share of the paths moves, and the next frame
-//! moves them back.
+//! Builds the gestures and edits of [`crate::Motion::Edit`]: a share of the paths moves, and the
+//! next frame moves them back.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use guideway_scene::{Edit, RenderError, Scene};
+use guideway_scene::{Edit, Gesture, RenderError, Scene};
 use guideway_spline::{Affine, Point};
+use serde::{Deserialize, Serialize};
 
 /// Shift of a moved path, in meters. Exact in `f32`, so that the second move restores the first
 /// position.
@@ -16,13 +17,29 @@ const BY_M: Point<f64> = Point { x: 0.5, y: 0.25 };
 pub struct Moves {
     /// Share of all paths, from 0 to 1.
     pub share: f64,
-    /// True if each path gets its own new curve; otherwise one transform moves all of them.
-    pub is_apart: bool,
+    /// How they move.
+    pub way: Way,
 }
 
-/// An edit and its inverse; frames apply them alternately.
+/// How paths move from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Way {
+    /// One map shows all of them elsewhere, as during a drag. A method that shows no gestures
+    /// moves them as by [`Self::Drop`].
+    #[default]
+    Gesture,
+    /// One transform edits all of them, as at the end of a drag.
+    Drop,
+    /// Each gets its own new curve.
+    Apart,
+}
+
+/// A change and its inverse; frames apply them alternately.
 #[derive(Clone, Debug)]
 pub struct Edits {
+    /// `None` if all frames are edits.
+    gestures: Option<[Gesture; 2]>,
     there_and_back: [Edit; 2],
     before: Arc<Scene>,
     /// Built on the first request.
@@ -34,7 +51,8 @@ impl Edits {
     pub fn new(scene: &Arc<Scene>, moves: Moves) -> Self {
         let paths = evenly_spaced(scene.row_count(), moves.share);
         Self {
-            there_and_back: if moves.is_apart {
+            gestures: (moves.way == Way::Gesture).then(|| gestures(&paths)),
+            there_and_back: if moves.way == Way::Apart {
                 move_separately(scene, &paths)
             } else {
                 [BY_M, BY_M * -1.0].map(|by_m| Edit::Transform {
@@ -50,6 +68,11 @@ impl Edits {
     /// Number of paths per edit.
     pub fn path_count(&self) -> usize {
         self.there_and_back[0].paths().count()
+    }
+
+    /// The gesture of frame number `frame`, unless it is an edit.
+    pub fn gesture(&self, frame: usize) -> Option<&Gesture> {
+        Some(&self.gestures.as_ref()?[frame % 2])
     }
 
     /// The edit of frame number `frame`.
@@ -72,6 +95,14 @@ impl Edits {
         after.edit(self.edit(0)).map_err(RenderError::Edit)?;
         Ok(self.after.get_or_init(|| Arc::new(after)))
     }
+}
+
+/// Shows paths elsewhere, and where they are.
+fn gestures(paths: &Arc<[u32]>) -> [Gesture; 2] {
+    [Affine::translation(BY_M), Affine::IDENTITY].map(|by| Gesture {
+        paths: Arc::clone(paths),
+        by,
+    })
 }
 
 /// New curves per path, shifted in four directions so that neighbors differ.
@@ -112,8 +143,9 @@ mod tests {
     fn moves_the_requested_share_only() {
         let before = Dataset::D1.scene(200);
         for (share, expected) in [(0.000_1, 1), (0.01, 2), (0.1, 20), (1.0, 200)] {
-            for is_apart in [false, true] {
-                let edits = Edits::new(&before, Moves { share, is_apart });
+            for way in [Way::Gesture, Way::Apart] {
+                let edits = Edits::new(&before, Moves { share, way });
+                assert_eq!(edits.gesture(0).is_some(), way == Way::Gesture);
                 assert_eq!(edits.path_count(), expected);
                 let after = edits.scene(0).unwrap();
                 let pairs = starts(&before).into_iter().zip(starts(after));
@@ -126,7 +158,7 @@ mod tests {
                 for pair in moved.windows(2) {
                     assert_eq!(pair[1].0 - pair[0].0, 200 / expected);
                     let goes_along = pair[1].1.distance(pair[0].1) < 0.01;
-                    assert_eq!(goes_along, !is_apart);
+                    assert_eq!(goes_along, way != Way::Apart);
                 }
             }
         }
@@ -135,11 +167,8 @@ mod tests {
     #[test]
     fn alternating_edits_restore_the_scene() {
         let scene = Dataset::D2.scene(100);
-        for is_apart in [false, true] {
-            let moves = Moves {
-                share: 1.0,
-                is_apart,
-            };
+        for way in [Way::Drop, Way::Apart] {
+            let moves = Moves { share: 1.0, way };
             let edits = Edits::new(&scene, moves);
             let mut edited = Scene::clone(&scene);
             edited.edit(edits.edit(0)).unwrap();
@@ -156,11 +185,8 @@ mod tests {
 
     #[test]
     fn an_empty_scene_has_no_paths_to_move() {
-        for is_apart in [false, true] {
-            let moves = Moves {
-                share: 0.5,
-                is_apart,
-            };
+        for way in [Way::Gesture, Way::Drop, Way::Apart] {
+            let moves = Moves { share: 0.5, way };
             assert_eq!(Edits::new(&Dataset::D1.scene(0), moves).path_count(), 0);
         }
     }

@@ -56,6 +56,7 @@ struct Track {
     wall_ms: Vec<f64>,
     update_ms: Vec<f64>,
     update_bytes: Option<u64>,
+    update_is_gesture: Option<bool>,
     stages: Vec<(&'static str, Clock, Vec<f64>)>,
     last: Report,
 }
@@ -93,6 +94,7 @@ impl Track {
         self.wall_ms.push(sample.wall_ms);
         self.update_ms.extend(sample.update.map(|update| update.ms));
         self.update_bytes = sample.update.and_then(|update| update.bytes);
+        self.update_is_gesture = sample.update.map(|update| update.is_gesture);
         for stage in &sample.report.stages {
             let known = self
                 .stages
@@ -133,6 +135,7 @@ impl Track {
             wall_ms: summary(&self.wall_ms)?,
             update_ms: Summary::of(&self.update_ms),
             update_bytes: self.update_bytes,
+            update_is_gesture: self.update_is_gesture,
             stages: stages.collect::<Result<_, MeasureError>>()?,
             paths: PathCounts::from(report),
             lines: report.lines,

@@ -69,6 +69,9 @@ pub struct Measured {
     /// Bytes that the last edit uploaded to the device; `None` without an edit, or if the method
     /// prepared the whole scene again.
     pub update_bytes: Option<u64>,
+    /// True if gestures showed the changes and the scene stayed; `None` without changes.
+    #[serde(default)]
+    pub update_is_gesture: Option<bool>,
     /// Stages of the frames.
     pub stages: Vec<StageTime>,
     /// Drawn, culled and refused paths of the last frame.

@@ -67,6 +67,8 @@ pub struct Update {
     pub ms: f64,
     /// Bytes uploaded to the device; `None` if the method prepared the whole scene again.
     pub bytes: Option<u64>,
+    /// True if a gesture shows the change, and the scene stays.
+    pub is_gesture: bool,
 }
 
 impl<'m> Runner<'m> {
@@ -140,13 +142,25 @@ impl<'m> Runner<'m> {
         })
     }
 
-    /// Edits the prepared scene in place, or prepares the edited scene if the method cannot.
+    /// Shows a gesture, or edits the prepared scene in place, or prepares the edited scene if the
+    /// method cannot.
     fn update(&mut self, edits: &Edits, number: usize) -> Result<Update, RenderError> {
         let started = Instant::now();
+        if let Some(gesture) = edits.gesture(number)
+            && let EditOutcome::InPlace { moved_bytes } =
+                self.prepared.show_gesture(Some(gesture))?
+        {
+            return Ok(Update {
+                ms: elapsed_ms(started),
+                bytes: Some(moved_bytes),
+                is_gesture: true,
+            });
+        }
         if let EditOutcome::InPlace { moved_bytes } = self.prepared.edit(edits.edit(number))? {
             return Ok(Update {
                 ms: elapsed_ms(started),
                 bytes: Some(moved_bytes),
+                is_gesture: false,
             });
         }
         let (prepared, prepare) = prepare(self.method, edits.scene(number)?, &self.budget)?;
@@ -154,6 +168,7 @@ impl<'m> Runner<'m> {
         Ok(Update {
             ms: prepare.ms,
             bytes: None,
+            is_gesture: false,
         })
     }
 
@@ -188,7 +203,7 @@ mod tests {
     use guideway_scene::{MethodInfo, Preparation};
 
     use super::*;
-    use crate::{Dataset, Moves};
+    use crate::{Dataset, Moves, Way};
 
     /// A method that cannot edit in place: it prepares each edited scene again.
     struct Repreparing;
@@ -228,37 +243,33 @@ mod tests {
     fn edits_in_place_and_by_preparation_draw_equal_frames() {
         let scene = Dataset::D1.scene(30);
         let size = FrameSize::new(96, 54).unwrap();
-        let request = FrameRequest {
-            view: View::fit(size, scene.bounds()).unwrap(),
-            motion: Motion::Edit,
-            edits: Some(Edits::new(
-                &scene,
-                Moves {
-                    share: 0.5,
-                    is_apart: false,
+        for way in [Way::Gesture, Way::Drop] {
+            let request = FrameRequest {
+                view: View::fit(size, scene.bounds()).unwrap(),
+                motion: Motion::Edit,
+                edits: Some(Edits::new(&scene, Moves { share: 0.5, way })),
+                style: Style::default(),
+                frames: Frames {
+                    warmup: 0,
+                    count: 1,
+                    enough_ms: f64::INFINITY,
                 },
-            )),
-            style: Style::default(),
-            frames: Frames {
-                warmup: 0,
-                count: 1,
-                enough_ms: f64::INFINITY,
-            },
-        };
-        let cancel = Cancel::default();
-        let runner = |method| Runner::new(method, &scene, Budget::default()).unwrap();
-        let (mut in_place, mut prepared_again) = (runner(&Oracle), runner(&Repreparing));
-        let before = in_place
-            .picture(&request.view, &request.style, &cancel)
-            .unwrap();
-        let before = before.clone();
-        for number in 0..4 {
-            let sample = in_place.draw(&request, number, &cancel).unwrap();
-            assert_eq!(sample.update.unwrap().bytes, Some(0));
-            let sample = prepared_again.draw(&request, number, &cancel).unwrap();
-            assert_eq!(sample.update.unwrap().bytes, None);
-            assert_eq!(in_place.frame == before, number % 2 == 1);
-            assert!(in_place.frame == prepared_again.frame, "frame {number}");
+            };
+            let cancel = Cancel::default();
+            let runner = |method| Runner::new(method, &scene, Budget::default()).unwrap();
+            let (mut in_place, mut prepared_again) = (runner(&Oracle), runner(&Repreparing));
+            let before = in_place
+                .picture(&request.view, &request.style, &cancel)
+                .unwrap();
+            let before = before.clone();
+            for number in 0..4 {
+                let sample = in_place.draw(&request, number, &cancel).unwrap();
+                assert_eq!(sample.update.unwrap().bytes, Some(0));
+                let sample = prepared_again.draw(&request, number, &cancel).unwrap();
+                assert_eq!(sample.update.unwrap().bytes, None);
+                assert_eq!(in_place.frame == before, number % 2 == 1);
+                assert!(in_place.frame == prepared_again.frame, "frame {number}");
+            }
         }
     }
 }

@@ -44,8 +44,12 @@ fn edits_move_the_requested_share_but_at_least_one_path() {
             said.contains(&format!(", {paths} {counted} moved each frame")),
             "{said}"
         );
-        assert!(said.contains("of the first; in place"), "{said}");
+        assert!(said.contains("of the first; a gesture"), "{said}");
     }
+    let drop = ["--methods", "oracle", "--motion", "edit", "--drop"];
+    let said = stdout(&tiny(&drop));
+    assert!(said.contains("moved each frame by one edit"), "{said}");
+    assert!(said.contains("of the first; in place"), "{said}");
     let apart = ["--methods", "oracle", "--motion", "edit", "--apart"];
     let said = stdout(&tiny(&apart));
     assert!(
@@ -80,6 +84,7 @@ fn report_is_documented_and_equal_in_a_file() {
                 "edit_share",
                 "edit_paths",
                 "edit_is_apart",
+                "edit_way",
             ],
         );
         assert_eq!(report["motion"], motion);
@@ -93,6 +98,8 @@ fn report_is_documented_and_equal_in_a_file() {
             assert_eq!(measured["update_ms"].is_object(), is_edited);
             assert_eq!(measured["first_frame"]["update_ms"].is_number(), is_edited);
         }
+        let is_gesture = &methods[1]["measured"]["update_is_gesture"];
+        assert_eq!(is_gesture.as_bool(), (motion == "edit").then_some(true));
         // The oracle reads the scene itself: it uploads nothing.
         let bytes = methods[1]["measured"]["update_bytes"].as_u64();
         assert_eq!(bytes, (motion == "edit").then_some(0));
@@ -152,6 +159,7 @@ fn rejects_invalid_arguments_with_a_remedy() {
         &["bench", file, "--paths", "5"][..],
         &["bench", "--moved", "5"],
         &["bench", "--apart"],
+        &["bench", "--drop"],
         &["bench", "--motion", "edit", "--moved", "0"],
         &["bench", "--methods", "nothing"],
         &["bench", "--frames", "0"],

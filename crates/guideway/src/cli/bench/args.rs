@@ -54,7 +54,11 @@ pub(crate) struct Args {
     /// Share of the paths that `--motion edit` moves per frame, in percent [default: 1]
     #[arg(long, value_name = "PERCENT", value_parser = values::percent)]
     pub(super) moved: Option<f64>,
-    /// Move each path of `--motion edit` by its own new curve, not all by one transform
+    /// Move the paths of `--motion edit` by an edit per frame, as at the end of a drag, not by the
+    /// map of a gesture
+    #[arg(long, conflicts_with = "apart")]
+    pub(super) drop: bool,
+    /// Move each path of `--motion edit` by its own new curve
     #[arg(long)]
     pub(super) apart: bool,
     /// Size of the picture in pixels

@@ -5,7 +5,7 @@ use std::path::Path;
 use guideway::layout::UserError;
 use guideway::scene::density::ToneMap;
 use guideway::scene::{Budget, LineRule, Shading, Style};
-use guideway_bench::{Contest, Dataset, Motion, Moves, StylePreset, plain_scene};
+use guideway_bench::{Contest, Dataset, Motion, Moves, StylePreset, Way, plain_scene};
 
 use super::args::{Args, MotionKind, StyleChoice};
 use crate::cli::error::usage_error;
@@ -46,9 +46,10 @@ impl Args {
                 "Omit --paths, or measure a dataset, such as `guideway bench d1 --paths 100000`",
             ));
         }
-        if self.motion != MotionKind::Edit && (self.moved.is_some() || self.apart) {
+        let has_way = self.apart || self.drop;
+        if self.motion != MotionKind::Edit && (self.moved.is_some() || has_way) {
             return Err(usage_error(
-                "--moved and --apart apply only with --motion edit",
+                "--moved, --drop and --apart apply only with --motion edit",
                 "Add it, such as `--motion edit --moved 10`",
             ));
         }
@@ -79,7 +80,11 @@ impl Args {
             },
             edit: Moves {
                 share: self.moved.unwrap_or(DEFAULT_MOVED_PERCENT) / 100.0,
-                is_apart: self.apart,
+                way: match (self.drop, self.apart) {
+                    (_, true) => Way::Apart,
+                    (true, false) => Way::Drop,
+                    (false, false) => Way::Gesture,
+                },
             },
             style: Style {
                 line_rule: match (self.width_px, self.line_rule) {

@@ -1,6 +1,8 @@
 //! The report of `bench` as a table.
 
-use guideway_bench::{Comparison, Contestant, Measured, Motion, Outcome, StageTime, StylePreset};
+use guideway_bench::{
+    Comparison, Contestant, Measured, Motion, Outcome, StageTime, StylePreset, Way,
+};
 
 use crate::cli::text;
 
@@ -55,9 +57,10 @@ fn heading(comparison: &Comparison) -> String {
         Motion::Zoom => "the view zooms".to_owned(),
         Motion::Edit => {
             let moved = comparison.edit_paths.unwrap_or(0) as u64;
-            let ways = match comparison.edit_is_apart {
-                Some(true) => ", each its own way",
-                _ => "",
+            let ways = match comparison.edit_way {
+                Some(Way::Apart) => ", each its own way",
+                Some(Way::Drop) => " by one edit",
+                Some(Way::Gesture) | None => "",
             };
             format!("{} moved each frame{ways}", text::counted(moved, "path"))
         }
@@ -130,8 +133,13 @@ fn update(m: &Measured) -> String {
     let (Some(each), Some(first_ms)) = (m.update_ms, m.first_frame.update_ms) else {
         return String::new();
     };
+    let is_gesture = m.update_is_gesture == Some(true);
     let how = match m.update_bytes {
         None => "prepared again".to_owned(),
+        Some(0) if is_gesture => "a gesture".to_owned(),
+        Some(bytes) if is_gesture => {
+            format!("a gesture, {} uploaded to the device", text::bytes(bytes))
+        }
         Some(0) => "in place".to_owned(),
         Some(bytes) => format!("in place, {} uploaded to the device", text::bytes(bytes)),
     };
