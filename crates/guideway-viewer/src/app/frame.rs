@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use eframe::egui::{CentralPanel, Context, CursorIcon, Frame, Panel, Ui, ViewportCommand};
 use guideway_document::Document;
+use guideway_spline::Affine;
 
 use super::state::App;
 use crate::backdrop::ActiveDocument;
@@ -16,6 +17,7 @@ use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
 use crate::speed_unit::set_speed_unit;
+use crate::tools::Gesture;
 
 /// Least width of the side panel, in points.
 const MIN_SIDE_PANEL_WIDTH: f32 = 180.0;
@@ -160,6 +162,7 @@ impl App {
         let Some(view) = self.canvas.camera.view() else {
             return;
         };
+        self.show_drag();
         self.request_pictures();
         let options = self.settings.mark_options(self.canvas.px_per_point());
         let (wait, repaint) = (self.edit_wait, &self.context.repaint);
@@ -194,6 +197,27 @@ impl App {
             network: self.shown_network(),
         };
         painter.paint(&ui.painter_at(screen.rect));
+    }
+
+    /// Shows the selected paths where a drag has moved them. After its end they stay there until
+    /// the edit has moved them.
+    fn show_drag(&mut self) {
+        let by_m = match self.tools.gesture() {
+            Gesture::Move { by_m, .. } => Some(*by_m),
+            _ => None,
+        };
+        let active = self.files.active_index();
+        for (index, layer) in self.files.layers_mut().iter_mut().enumerate() {
+            match (by_m.filter(|_| index == active), layer.slot.document()) {
+                (Some(by_m), Some(document)) => {
+                    let paths = || document.selection().iter().collect();
+                    let by = Affine::translation(by_m);
+                    layer.picture.show_gesture(by, paths);
+                }
+                (None, Some(_)) => layer.picture.end_gesture(),
+                (_, None) => {}
+            }
+        }
     }
 
     /// Requests the pictures of the present view.

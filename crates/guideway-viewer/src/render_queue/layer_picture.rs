@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
-use guideway_scene::{Report, Scene, View};
+use guideway_scene::{Gesture, Report, Scene, View};
+use guideway_spline::Affine;
 
 use super::method_selection::FALLBACK_METHOD;
 use super::queue::RenderQueue;
@@ -20,6 +21,7 @@ pub(crate) struct LayerPicture {
     renderer: Renderer,
     shown: Option<ShownPicture>,
     requested: Option<RenderRequest>,
+    gesture: Option<Gesture>,
 }
 
 /// A picture as a texture.
@@ -56,6 +58,7 @@ impl LayerPicture {
             renderer: Renderer::start(Arc::clone(services), method, Arc::clone(repaint)),
             shown: None,
             requested: None,
+            gesture: None,
         }
     }
 
@@ -77,6 +80,26 @@ impl LayerPicture {
     /// Replaces the render method.
     pub(crate) fn set_method(&self, name: &str) {
         self.renderer.set_method(name);
+    }
+
+    /// Shows paths by a map, until [`Self::end_gesture`]. `paths` gives them at the beginning.
+    pub(crate) fn show_gesture(&mut self, by: Affine, paths: impl FnOnce() -> Arc<[u32]>) {
+        let shown = self.gesture.take();
+        if shown.as_ref().is_none_or(|shown| shown.by != by) {
+            let paths = shown.map_or_else(paths, |shown| shown.paths);
+            let gesture = Gesture { paths, by };
+            self.renderer.show_gesture(Some(gesture.clone()));
+            self.gesture = Some(gesture);
+        } else {
+            self.gesture = shown;
+        }
+    }
+
+    /// Shows the scene without a gesture.
+    pub(crate) fn end_gesture(&mut self) {
+        if self.gesture.take().is_some() {
+            self.renderer.show_gesture(None);
+        }
     }
 
     /// Requests a picture, unless the same one was requested last.

@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-use guideway_scene::{Cancel, Edit, Scene};
+use guideway_scene::{Cancel, Edit, Gesture, Scene};
 
 use super::RenderRequest;
 
@@ -34,6 +34,8 @@ struct Mailbox {
 pub(super) enum SceneUpdate {
     Scene(Arc<Scene>),
     Edit(Edit),
+    /// A gesture to show, or its end. Only the newest of several in a row counts.
+    Gesture(Option<Gesture>),
     Method(String),
 }
 
@@ -61,6 +63,20 @@ impl RenderQueue {
     /// Applies an edit to the worker's scene.
     pub(crate) fn edit(&self, edit: Edit) {
         self.update(SceneUpdate::Edit(edit));
+    }
+
+    /// Shows a gesture, or the scene without one, and repeats the last request. The picture in
+    /// progress continues: while a drag goes on, each would be canceled.
+    pub(super) fn show_gesture(&self, gesture: Option<Gesture>) {
+        let mut mailbox = self.lock();
+        let gesture = SceneUpdate::Gesture(gesture);
+        match mailbox.updates.last_mut() {
+            Some(last @ SceneUpdate::Gesture(_)) => *last = gesture,
+            _ => mailbox.updates.push(gesture),
+        }
+        mailbox.next = mailbox.last;
+        drop(mailbox);
+        self.0.condvar.notify_one();
     }
 
     /// Applies an update and repeats the last request.
@@ -131,7 +147,7 @@ impl RenderQueue {
 #[cfg(test)]
 mod tests {
     use guideway_scene::{FrameSize, Style, View};
-    use guideway_spline::Point;
+    use guideway_spline::{Affine, Point};
 
     use super::*;
 
@@ -172,6 +188,25 @@ mod tests {
         assert!(cancel.check().is_err());
         let job = queue.next_job().unwrap();
         assert_eq!((job.updates.len(), job.request.is_some()), (1, true));
+    }
+
+    #[test]
+    fn keeps_the_newest_map_of_a_gesture_and_cancels_nothing() {
+        let queue = RenderQueue::default();
+        queue.request(request(0.0));
+        let (_, cancel) = queue.next_job().unwrap().request.unwrap();
+        let gesture = |x_m: f64| Gesture {
+            paths: [1].into(),
+            by: Affine::translation(Point::new(x_m, 0.0)),
+        };
+        queue.show_gesture(Some(gesture(1.0)));
+        queue.show_gesture(Some(gesture(2.0)));
+        assert!(cancel.check().is_ok());
+        let job = queue.next_job().unwrap();
+        let [SceneUpdate::Gesture(shown)] = &job.updates[..] else {
+            panic!("{} updates", job.updates.len());
+        };
+        assert_eq!((shown, job.request.is_some()), (&Some(gesture(2.0)), true));
     }
 
     #[test]

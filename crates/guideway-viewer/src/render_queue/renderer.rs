@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::thread::JoinHandle;
 
-use guideway_scene::Scene;
+use guideway_scene::{Gesture, Scene};
 
 use super::queue::{RenderQueue, SceneUpdate};
 use super::request::RenderRequest;
@@ -55,6 +55,11 @@ impl Renderer {
     /// Replaces the scene.
     pub(crate) fn set_scene(&self, scene: Arc<Scene>) {
         self.queue.update(SceneUpdate::Scene(scene));
+    }
+
+    /// Shows a gesture, or the scene without one.
+    pub(super) fn show_gesture(&self, gesture: Option<Gesture>) {
+        self.queue.show_gesture(gesture);
     }
 
     /// Replaces the render method.

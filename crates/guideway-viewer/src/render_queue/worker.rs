@@ -59,6 +59,7 @@ pub(super) fn spawn(
         // The window sends the first scene without a request.
         has_requested_scene: true,
         frame: None,
+        last_picture: None,
     };
     // Without a thread the sender is dropped, which the window reports.
     let thread = start_thread(move || worker.run());
@@ -78,22 +79,39 @@ struct Worker {
     /// True if a [`RenderEvent::NeedsScene`] is unanswered.
     has_requested_scene: bool,
     frame: Option<Frame>,
+    /// The request of the last picture, if it was finished.
+    last_picture: Option<RenderRequest>,
 }
 
 impl Worker {
     fn run(&mut self) {
         while let Some(RenderJob { updates, request }) = self.queue.next_job() {
+            let mut is_changed = updates.is_empty();
             for update in updates {
-                self.apply(update);
+                is_changed |= self.apply(update);
             }
-            if let Some((request, cancel)) = request {
+            // A method that shows no gestures need not draw the same picture again.
+            let is_new = |(request, _): &(RenderRequest, _)| {
+                is_changed || self.last_picture != Some(*request)
+            };
+            if let Some((request, cancel)) = request.filter(is_new) {
                 self.render(request, &cancel);
             }
         }
     }
 
-    fn apply(&mut self, update: SceneUpdate) {
+    /// Returns `true` if the picture may have changed.
+    fn apply(&mut self, update: SceneUpdate) -> bool {
         match update {
+            SceneUpdate::Gesture(gesture) => {
+                // The window shows an outline if the method shows no gesture, or refuses it; the
+                // edit at its end tells why.
+                let shown = self
+                    .prepared
+                    .as_mut()
+                    .map(|p| p.show_gesture(gesture.as_ref()));
+                return !matches!(shown, None | Some(Ok(EditOutcome::NotInPlace)));
+            }
             SceneUpdate::Scene(scene) => {
                 self.scene = Some(scene);
                 self.prepared = None;
@@ -119,6 +137,7 @@ impl Worker {
                 self.prepared = None;
             }
         }
+        true
     }
 
     fn render(&mut self, request: RenderRequest, cancel: &Cancel) {
@@ -179,7 +198,9 @@ impl Worker {
         };
         let size = request.view.size();
         let frame = self.frame.get_or_insert_with(|| Frame::new(size));
+        self.last_picture = None;
         let report = prepared.render(&request.view, &request.style, cancel, frame)?;
+        self.last_picture = Some(*request);
         Ok(Picture {
             request: *request,
             image: color_image(frame),

@@ -1,10 +1,11 @@
 //! Drags of selections, nodes and control points.
 
-use eframe::egui::{Key, Modifiers, Vec2};
+use eframe::egui::{Event, Key, Modifiers, Vec2};
 use guideway_spline::Point;
 
 use super::services::lanes;
 use super::test_window::TestWindow;
+use crate::app::App;
 use crate::tools::Tool;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -26,6 +27,29 @@ fn dragged_selection_moves_and_undo_restores_it() {
     assert!(!window.document().is_changed());
     window.key(CTRL | Modifiers::SHIFT, Key::Z);
     assert!(window.document().is_changed());
+}
+
+#[test]
+fn picture_follows_the_drag_and_escape_takes_it_back() {
+    let mut window = TestWindow::showing(lanes(5));
+    let from = window.at(5.0, 4.0);
+    window.click(from);
+    let shows = |paths: u64| {
+        move |app: &App| {
+            let shown = app.files.layers()[0].picture.shown();
+            shown.is_some_and(|shown| shown.report.drawn == paths)
+        }
+    };
+    window.wait(shows(5));
+    window.press(from, NONE);
+    // Far above the canvas.
+    let to = from - Vec2::new(0.0, 4000.0);
+    window.harness.event(Event::PointerMoved(to));
+    window.wait(shows(4));
+    assert!(!window.document().is_changed());
+    window.key(NONE, Key::Escape);
+    window.wait(shows(5));
+    assert!(!window.document().is_changed());
 }
 
 #[test]

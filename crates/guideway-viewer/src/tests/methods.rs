@@ -1,6 +1,6 @@
 //! The choice of the render method, and the fallback when a device is lost.
 
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 
 use super::services::{TestServices, lanes};
@@ -54,4 +54,24 @@ fn cpu_replaces_a_lost_device_for_all_files() {
         .filter(|n| n.contains("device was lost") && n.contains("cpu"));
     assert_eq!(said.count(), 1, "{:?}", app.dialogs.notices.texts());
     assert!(app.files.layers()[1].is_changed(), "the edit is kept");
+}
+
+#[test]
+fn device_lost_during_a_drag_leaves_the_layout_as_it_was_until_the_drop() {
+    let disk = TestServices::with([("site.arrow", lanes(5))]);
+    let mut window = TestWindow::open(&disk, &["site.arrow"], None);
+    window.wait(|app| rendered_by(app) == Some("device") && app.document().is_some());
+    let from = window.at(5.0, 4.0);
+    window.click(from);
+    window.press(from, NONE);
+    let to = from + Vec2::new(0.0, 30.0);
+    window.harness.event(Event::PointerMoved(to));
+    window.harness.run_steps(4);
+    disk.lose_device();
+    let to = from + Vec2::new(0.0, 40.0);
+    window.harness.event(Event::PointerMoved(to));
+    window.wait(|app| rendered_by(app) == Some("cpu"));
+    assert!(!window.document().is_changed());
+    window.release(to, NONE);
+    assert!(window.document().is_changed());
 }

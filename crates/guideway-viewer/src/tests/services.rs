@@ -11,8 +11,8 @@ use guideway_cpu::Cpu;
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_scene::{
-    Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
-    Report, Style, View,
+    Budget, Cancel, EditOutcome, Frame, Gesture, Method, MethodInfo, Preparation, Prepared,
+    RenderError, Report, Style, View,
 };
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Point, Runs};
@@ -370,6 +370,11 @@ impl Prepared for PreparedOnDevice {
     fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         self.check()?;
         self.prepared.edit(edit)
+    }
+
+    fn show_gesture(&mut self, gesture: Option<&Gesture>) -> Result<EditOutcome, RenderError> {
+        self.check()?;
+        self.prepared.show_gesture(gesture)
     }
 
     fn preparation(&self) -> &Preparation {

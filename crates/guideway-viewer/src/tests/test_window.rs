@@ -172,13 +172,13 @@ impl TestWindow {
         self.harness.step();
     }
 
-    fn press(&mut self, at: Pos2, modifiers: Modifiers) {
+    pub(super) fn press(&mut self, at: Pos2, modifiers: Modifiers) {
         self.harness.event(Event::PointerMoved(at));
         self.harness.step();
         self.button(at, modifiers, true);
     }
 
-    fn release(&mut self, at: Pos2, modifiers: Modifiers) {
+    pub(super) fn release(&mut self, at: Pos2, modifiers: Modifiers) {
         self.button(at, modifiers, false);
     }
 
