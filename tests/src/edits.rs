@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use guideway_layout::{Geometry, OwnStyle};
-use guideway_scene::{Edit, Insertion, PathState, Scene, View};
+use guideway_scene::{Edit, Gesture, Insertion, PathState, Scene, View};
 use guideway_spline::{Affine, Point, Runs};
 
 use crate::random::Lcg;
@@ -130,6 +130,23 @@ pub const KINDS: [(&str, Kind); 9] = [
         Edit::Insert(insertions.collect())
     }),
 ];
+
+/// A gesture of a share of the rows, up to all: moves them, and turns, mirrors or scales most.
+pub fn gesture(scene: &Scene, area: &Area, lcg: &mut Lcg) -> Gesture {
+    let share = [0.05, 0.5, 1.0][lcg.below(3)];
+    let rows = 0..scene.row_count() as u32;
+    let about = area.point(lcg);
+    let turn = match lcg.below(4) {
+        0 => Affine::IDENTITY,
+        1 => Affine::rotation(lcg.between(-3.0, 3.0), about),
+        2 => Affine::mirror(about, Point::new(1.0, lcg.between(-2.0, 2.0))),
+        _ => Affine::scale(lcg.between(0.3, 1.8), lcg.between(0.3, 1.8), about),
+    };
+    Gesture {
+        paths: rows.filter(|_| lcg.unit() < share).collect(),
+        by: turn.then(Affine::translation(area.step(0.3, lcg))),
+    }
+}
 
 /// Up to 5 % of the rows, including removed ones.
 fn rows(scene: &Scene, lcg: &mut Lcg) -> Arc<[u32]> {

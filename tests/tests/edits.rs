@@ -5,13 +5,13 @@ use std::sync::Arc;
 use guideway_cpu::Oracle;
 use guideway_scene::density::ToneMap;
 use guideway_scene::{
-    Budget, Edit, EditOutcome, Frame, Method, Prepared, Report, Scene, Style, View,
+    Budget, Edit, EditOutcome, Frame, Gesture, Method, Prepared, Report, Scene, Style, View,
 };
 use guideway_spline::{Affine, Point};
 use guideway_tests::BoxError;
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::devices::candidates;
-use guideway_tests::edits::{Area, KINDS};
+use guideway_tests::edits::{Area, KINDS, gesture};
 use guideway_tests::methods::{methods, render_view};
 use guideway_tests::random::Lcg;
 use guideway_tests::scenes::{long_curves, site};
@@ -53,6 +53,9 @@ fn tested_methods() -> Vec<TestedMethod> {
     .collect()
 }
 
+/// Random sequences of edits and gestures per method.
+const SEQUENCES: u64 = 200;
+
 fn sketch() -> Sketch {
     Sketch::new(72, 48)
 }
@@ -81,6 +84,36 @@ fn edits_curves_that_are_small_relative_to_the_scene() {
     let sketch = long_curves(sketch().width(1.2), 80, 35);
     let drawing = sketch.line((3e4, 0.0), (3e4 + 9.0, 5.0)).build();
     check_edits(&drawing, 1);
+}
+
+#[test]
+fn gestures_between_edits_leave_no_trace() {
+    for tested in tested_methods() {
+        if !shows_gestures(tested.method.as_ref()) {
+            println!("SKIPPED: {} shows no gestures", tested.name);
+            let must = ["oracle", "cpu", "gpu"].contains(&tested.name.as_str());
+            assert!(!must, "{} must show gestures", tested.name);
+            continue;
+        }
+        if tested.name == "oracle" {
+            continue;
+        }
+        for seed in 0..SEQUENCES {
+            if let Err(error) = tested.check_gestures(seed) {
+                panic!("{}, seed {seed}: {error}", tested.name);
+            }
+        }
+    }
+}
+
+fn shows_gestures(method: &dyn Method) -> bool {
+    let drawing = Sketch::new(16, 16).line((2.0, 2.0), (14.0, 9.0)).build();
+    let gesture = Gesture {
+        paths: [0].into(),
+        by: Affine::translation(Point::new(0.1, 0.0)),
+    };
+    let shown = prepare(method, &drawing.scene()).show_gesture(Some(&gesture));
+    shown.expect("the path is there") != EditOutcome::NotInPlace
 }
 
 /// Checks every step of an edit sequence with every method that edits in place.
@@ -193,6 +226,58 @@ impl TestedMethod {
                 .map_err(|error| format!("view {number} after the undo of all edits: {error}"))?;
         }
         println!("{}: undo restores all bits: {}", self.name, before == after);
+        Ok(())
+    }
+
+    /// Applies random edits and undoes some, once with gestures in between and once without: the
+    /// pictures are equal to the bit.
+    fn check_gestures(&self, seed: u64) -> Result<(), BoxError> {
+        let lcg = &mut Lcg::new(seed);
+        let colors = [0, 0x2060_a0ff, 0x2060_a080][lcg.below(3)];
+        let sketch = sketch().width(1.2);
+        let sketch = site(sketch, 20 + lcg.below(60), seed);
+        let drawing = match colors {
+            0 => sketch.in_f32().build(),
+            color => sketch.common_color(color).build(),
+        };
+        let (area, views) = (Area::of(&drawing.view), views(&drawing.view));
+        let mut scene = drawing.scene();
+        let [mut dragged, mut quiet] = [(), ()].map(|()| prepare(self.method.as_ref(), &scene));
+        let mut undo = Vec::new();
+        for step in 0..6 {
+            // No view follows another one of its scale: scrolled pixels differ in rounding.
+            let view = &views[[0, 2, 3][step % 3]];
+            for _ in 0..lcg.below(3) {
+                let gesture = gesture(&scene, &area, lcg);
+                dragged.show_gesture(Some(&gesture))?;
+                let (drawn, report) = draw(dragged.as_mut(), view, &drawing.style);
+                check_counts(&report, &scene)?;
+                let mut oracle = prepare(&Oracle, &scene);
+                oracle.show_gesture(Some(&gesture))?;
+                let (expected, _) = draw(oracle.as_mut(), view, &drawing.style);
+                check(&expected, &drawn, &self.tolerance).map_err(|error| {
+                    format!(
+                        "step {step}, {} paths by {:?}: {error}",
+                        gesture.paths.len(),
+                        gesture.by
+                    )
+                })?;
+            }
+            let (_, kind) = KINDS[lcg.below(KINDS.len())];
+            let edit = match undo.pop().filter(|_| lcg.below(3) == 0) {
+                Some(back) => back,
+                None => kind(&scene, &area, lcg),
+            };
+            undo.push(scene.edit_with_undo(&edit, |_| {})?);
+            for prepared in [&mut dragged, &mut quiet] {
+                prepared.edit(&edit)?;
+            }
+            let (drawn, _) = draw(dragged.as_mut(), view, &drawing.style);
+            let (expected, _) = draw(quiet.as_mut(), view, &drawing.style);
+            if drawn != expected {
+                return Err(format!("step {step}: a gesture has left a trace").into());
+            }
+        }
         Ok(())
     }
 
