@@ -9,7 +9,7 @@ use crate::reproduce::deadline::Deadline;
 use crate::reproduce::names::SAMPLE;
 use crate::reproduce::run::{Reading, Results};
 use crate::reproduce::session::Session;
-use guideway_bench::{Edits, Moves, Outcome, Prepare};
+use guideway_bench::{Edits, Moves, Outcome, Prepare, Way};
 
 /// Measures preparation and frame times for each number of paths.
 pub(crate) fn growth(
@@ -45,7 +45,7 @@ pub(crate) fn changes(
 ) -> Result<(), RenderError> {
     let all = Moves {
         share: 1.0,
-        is_apart: false,
+        way: Way::Drop,
     };
     let paths = |dataset| session.plan.view_paths(dataset);
     let mut open: Vec<_> = session.cases().collect();
