@@ -64,7 +64,7 @@ pub struct Comparison {
     pub edit_paths: Option<usize>,
     /// True if each path moves by its own curve.
     pub edit_is_apart: Option<bool>,
-    /// How paths move, with [`Motion::Edit`].
+    /// Way in which paths move, with [`Motion::Edit`].
     #[serde(default)]
     pub edit_way: Option<Way>,
     /// Unmeasured frames per method after the first.

@@ -17,11 +17,11 @@ const BY_M: Point<f64> = Point { x: 0.5, y: 0.25 };
 pub struct Moves {
     /// Share of all paths, from 0 to 1.
     pub share: f64,
-    /// How they move.
+    /// Way in which they move.
     pub way: Way,
 }
 
-/// How paths move from frame to frame.
+/// Way in which paths move from frame to frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {

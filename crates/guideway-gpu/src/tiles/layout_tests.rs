@@ -60,13 +60,13 @@ fn every_shader_file_has_a_header_and_at_most_one_entry_point() {
 fn structures_have_the_same_layout() {
     let sources = sources();
     let sources: Vec<_> = sources.iter().collect();
-    let frame = members!(FrameParams: center_high_m, center_low_m, lod_reach_px, flatten_low_px,
-        flatten_high_px, window_low_px, window_high_px, lod_origin_px, map_x, map_y, lod_px_per_m,
-        lod_px_per_px, px_per_lod_px, px_per_m, radius_px, min_radius_px, max_radius_px, tolerance_px, clusters,
-        styles, width_px, height_px, first_column, columns, first_row, rows, first_pixel_row,
-        line_capacity, reference_capacity, color, background, max_step_m, has_ranks, first_line,
-        caches_lines, dirty_clusters, cached_lines, threads_per_line, list_capacity, steps_per_px,
-        px_per_step);
+    let frame = members!(FrameParams: center_high_m, center_low_m, lod_reach_px,
+        flatten_low_px, flatten_high_px, window_low_px, window_high_px, lod_origin_px, map_x,
+        map_y, lod_px_per_m, lod_px_per_px, px_per_lod_px, px_per_m, radius_px, min_radius_px,
+        max_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
+        columns, first_row, rows, first_pixel_row, line_capacity, reference_capacity, color,
+        background, max_step_m, has_ranks, first_line, caches_lines, dirty_clusters,
+        cached_lines, threads_per_line, list_capacity, steps_per_px, px_per_step);
     assert_layout(&sources, "Frame", &frame);
     let dispatch = members!(FlattenDispatch: first_cluster, end_cluster, occlusion_pass, is_near);
     assert_layout(&sources, "FlattenDispatch", &dispatch);

@@ -13,7 +13,7 @@ const BOTTOM: f64 = 46.0;
 /// Ratio of largest to smallest value above which the axis is logarithmic.
 const LOG_RATIO: f64 = 60.0;
 /// Number of line classes in the style sheet.
-const STYLES: usize = 10;
+const STYLES: usize = 14;
 
 /// A line chart of non-negative values.
 #[derive(Clone, Debug)]

@@ -7,80 +7,19 @@
 //! ```
 
 use guideway_scene::{Gesture, GesturePaths, RenderError};
-use guideway_spline::{Affine, Bounds};
+use guideway_spline::Affine;
 
 use super::edit::EditEffect;
 use super::edit_patches::EditPatches;
-use super::facts::SceneFacts;
 use super::pack::Packed;
 use super::path_parts::PathPart;
 use super::path_strokes::{PathStrokes, cluster_of};
 use super::point_buffer::ViewDistance;
 use super::scene_buffers::SceneBuffers;
+use super::shown_gesture::ShownGesture;
 use super::uploaded_scene::UploadedScene;
 use crate::tiles::device_context::{DeviceContext, device_error};
-use crate::tiles::layouts::{Cluster, Stroke};
-
-/// The gesture that the buffers of a scene show, and how they were before.
-pub(crate) struct ShownGesture {
-    paths: GesturePaths,
-    by: Affine,
-    is_selected: Vec<bool>,
-    /// Mapped clusters without the map, ascending.
-    at_rest: Vec<(usize, Cluster)>,
-    /// Strokes that are drawn from clusters of the gesture instead.
-    hidden: Vec<(u32, Stroke)>,
-    /// Number of clusters, strokes and point buffers of the scene.
-    clusters: usize,
-    strokes: usize,
-    point_buffers: usize,
-    facts: SceneFacts,
-}
-
-impl ShownGesture {
-    /// Returns `true` if a gesture is this one, with any map.
-    pub(crate) fn is_of(&self, gesture: &Gesture) -> bool {
-        self.paths.are_of(gesture)
-    }
-
-    /// Returns `true` if the map does more than move paths.
-    pub(crate) fn turns(&self) -> bool {
-        self.by.as_translation().is_none()
-    }
-
-    /// Indices of the mapped clusters.
-    pub(crate) fn mapped_clusters(&self) -> impl Iterator<Item = usize> {
-        self.at_rest.iter().map(|(index, _)| *index)
-    }
-
-    /// A mapped cluster without the map.
-    pub(crate) fn at_rest(&self, index: usize) -> Option<&Cluster> {
-        let found = self
-            .at_rest
-            .binary_search_by_key(&index, |(index, _)| *index);
-        Some(&self.at_rest[found.ok()?].1)
-    }
-
-    /// A box that holds the control points of a path as they are shown.
-    pub(crate) fn shown_hull(&self, path: u32, hull: Bounds<f64>) -> Bounds<f64> {
-        match self.is_selected.get(path as usize) {
-            Some(true) => {
-                let corners = hull.corners().map(|p| self.by.apply(p));
-                Bounds::of_points(corners).unwrap_or(hull)
-            }
-            _ => hull,
-        }
-    }
-
-    /// The range of clusters that holds all mapped ones.
-    fn mapped_range(&self) -> std::ops::Range<usize> {
-        let ends = (self.at_rest.first(), self.at_rest.last());
-        match ends {
-            (Some((first, _)), Some((last, _))) => *first..last + 1,
-            _ => 0..0,
-        }
-    }
-}
+use crate::tiles::layouts::Stroke;
 
 /// Paths of a gesture by the clusters that hold them.
 struct Selection {

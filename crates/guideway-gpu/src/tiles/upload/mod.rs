@@ -10,7 +10,7 @@
 //! | `path_strokes` | finds the strokes of a path, for edits |
 //! | `uploaded_scene` | the scene and all of the above |
 //! | `near_upload` | uploads exact points of near clusters |
-//! | `gesture` | shows the paths of a gesture by mapping their clusters |
+//! | `shown_gesture`, `gesture` | shows the paths of a gesture by mapping their clusters |
 //! | `edit`, `edit_patches` | applies an edit; `dirty_clusters` are the clusters it changes |
 
 pub(crate) mod cluster;
@@ -26,4 +26,5 @@ pub(crate) mod path_parts;
 pub(crate) mod path_strokes;
 pub(crate) mod point_buffer;
 pub(crate) mod scene_buffers;
+pub(crate) mod shown_gesture;
 pub(crate) mod uploaded_scene;

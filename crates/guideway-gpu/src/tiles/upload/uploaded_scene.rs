@@ -8,10 +8,10 @@ use guideway_scene::{RenderError, Scene, Stage, elapsed_ms};
 
 use super::draw_ranks::DrawRanks;
 use super::facts::SceneFacts;
-use super::gesture::ShownGesture;
 use super::pack::{Packed, Packing};
 use super::path_strokes::PathStrokes;
 use super::scene_buffers::{SceneBuffers, all_parts};
+use super::shown_gesture::ShownGesture;
 use crate::device::Patcher;
 use crate::tiles::device_context::{DeviceContext, device_error};
 
