@@ -25,7 +25,6 @@
 pub mod arrow;
 mod builder;
 mod clamped;
-mod common_losses;
 mod driven;
 #[cfg(feature = "dxf")]
 pub mod dxf;

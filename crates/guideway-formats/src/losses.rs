@@ -146,6 +146,12 @@ impl Losses {
     }
 }
 
+/// The losses that a writer of all but the model itself starts its list with: refused paths and
+/// paths without a curve.
+pub(crate) fn common_losses(layout: &Layout) -> Losses {
+    Losses::of_paths(layout, layout.refused.len())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,7 +5,6 @@
 
 mod check;
 mod joints;
-mod message;
 mod pairs;
 mod report;
 mod walls;

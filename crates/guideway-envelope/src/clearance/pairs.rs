@@ -9,8 +9,8 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::joints::Joints;
-use super::message::approach;
 use super::report::{ClearanceOptions, ClearanceWork};
+use super::walls::approach;
 use crate::{ClosestApproach, EnvelopeSource, ProximityQuery, SweepTree};
 
 type Entry = GeomWithData<Rectangle<[f64; 2]>, u32>;

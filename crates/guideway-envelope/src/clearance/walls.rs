@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::message::approach;
 use super::report::{ClearanceOptions, ClearanceWork};
 use crate::{
     ClosestApproach, ConvexPolygon, EnvelopeSource, ProximityQuery, Sweep, SweepTree, Undecided,
@@ -213,5 +212,14 @@ impl Walls {
             "Move the path away from it; if it is not a wall, check against the wall layers of the \
              floor plan only",
         );
+    }
+}
+
+/// `overlap with`, or the distance of vehicles to something.
+pub(super) fn approach(distance_m: f64) -> String {
+    if distance_m == 0.0 {
+        "overlap with".to_owned()
+    } else {
+        format!("come within {distance_m:.2} m of")
     }
 }

@@ -12,8 +12,8 @@ use super::write_sections::{write_after_entities, write_before_entities};
 use super::xdata::write_path_id;
 use crate::Losses;
 use crate::clamped::{ClampedCurve, is_rewritten_as, rounded};
-use crate::common_losses::common_losses;
 use crate::finite::check_finite;
+use crate::losses::common_losses;
 use crate::source::WrittenPaths;
 
 /// Name of the attribute column that holds layer names.

@@ -5,7 +5,7 @@ use serde_json::value::RawValue;
 
 use super::names::is_reserved;
 use crate::Losses;
-use crate::common_losses::common_losses;
+use crate::losses::common_losses;
 
 /// Lists the parts of a layout that GeoJSON does not hold.
 pub(super) fn list_losses(layout: &Layout) -> Losses {

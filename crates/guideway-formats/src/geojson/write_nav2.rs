@@ -14,8 +14,8 @@ use super::nav2_ids::Nav2Ids;
 use super::nav2_values::{Kind, Placement, is_metadata, placement};
 use super::write::WriteOptions;
 use crate::Losses;
-use crate::common_losses::common_losses;
 use crate::finite::check_finite;
+use crate::losses::common_losses;
 use crate::source::WrittenPaths;
 
 /// Writes a layout as a route graph of Nav2: nodes as points, paths as directed edges with whole

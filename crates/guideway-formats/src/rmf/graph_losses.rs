@@ -6,7 +6,7 @@ use guideway_spline::Point;
 use super::graph_columns::{graph_of, is_of_lift, node_column, parameter, path_column};
 use super::graph_plan::{GraphPlan, PathKind, is_lift};
 use crate::Losses;
-use crate::common_losses::common_losses;
+use crate::losses::common_losses;
 
 /// Largest distance of a path from the straight line between its nodes, in meters.
 const STRAIGHT_M: f64 = 1e-5;

@@ -8,8 +8,8 @@ use guideway_spline::{Bounds, Point};
 use super::svg_writer::{PathData, Stroke, SvgWriter};
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
-use crate::common_losses::common_losses;
 use crate::finite::check_finite;
+use crate::losses::common_losses;
 use crate::source::WrittenPaths;
 use crate::xml_text::is_xml_char;
 

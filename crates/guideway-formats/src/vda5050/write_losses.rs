@@ -7,7 +7,7 @@ use guideway_layout::{Attributes, Direction};
 
 use super::objects::{Objects, Part};
 use crate::Losses;
-use crate::common_losses::common_losses;
+use crate::losses::common_losses;
 
 /// Lists the losses, after all objects were written.
 pub(super) fn losses(objects: &Objects<'_, '_>) -> Losses {

@@ -4,11 +4,9 @@
 mod latest_task;
 mod redraw_timer;
 mod repaint_gate;
-mod repaint_handle;
 mod task;
 
 pub(crate) use latest_task::LatestTask;
 pub(crate) use redraw_timer::RedrawTimer;
 pub(crate) use repaint_gate::RepaintGate;
-pub(crate) use repaint_handle::RepaintHandle;
-pub(crate) use task::BackgroundTask;
+pub(crate) use task::{BackgroundTask, RepaintHandle};

@@ -7,9 +7,11 @@ use std::time::Duration;
 
 use guideway_layout::UserError;
 
-use super::RepaintHandle;
 use crate::language::{start_thread, t};
 use crate::services::WINDOW_ERROR;
+
+/// Requests a frame from the window; callable from any thread.
+pub(crate) type RepaintHandle = Arc<dyn Fn() + Send + Sync>;
 
 /// A closure that runs once on its own thread.
 pub(crate) struct BackgroundTask<T> {

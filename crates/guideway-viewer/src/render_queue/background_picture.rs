@@ -1,10 +1,9 @@
 //! A picture below the layouts (floor plan, swept areas), rendered by a background task.
 
-use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 use guideway_layout::UserError;
 use guideway_scene::{Frame, View};
 
-use super::color_image::color_image;
 use crate::background::{BackgroundTask, RepaintHandle};
 
 /// The last picture and the next one. `K` identifies the content of a picture, beside its view.
@@ -89,6 +88,14 @@ impl<K: PartialEq> BackgroundPicture<K> {
             }
         }
     }
+}
+
+/// Converts straight alpha (frame) into premultiplied alpha (egui).
+pub(crate) fn color_image(frame: &Frame) -> ColorImage {
+    let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
+    let size = [frame.size().width(), frame.size().height()];
+    let pixels = frame.pixels().iter().map(color).collect();
+    ColorImage::new(size.map(|side| side as usize), pixels)
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@
 //! | display | picture | texture and report | `layer_picture`, `background_picture` |
 
 mod background_picture;
-mod color_image;
 mod layer_picture;
 mod method_selection;
 mod queue;
@@ -16,8 +15,7 @@ mod renderer;
 mod request;
 mod worker;
 
-pub(crate) use background_picture::BackgroundPicture;
-pub(crate) use color_image::color_image;
+pub(crate) use background_picture::{BackgroundPicture, color_image};
 pub(crate) use layer_picture::{LayerPicture, PictureEvent};
 pub(crate) use method_selection::{FALLBACK_METHOD, MethodSelection};
 #[cfg(test)]

@@ -11,7 +11,7 @@ use guideway_scene::{
     Budget, Cancel, EditOutcome, Frame, Method, Prepared, RenderError, Report, Scene, elapsed_ms,
 };
 
-use super::color_image::color_image;
+use super::background_picture::color_image;
 use super::method_selection::FALLBACK_METHOD;
 use super::queue::{RenderJob, RenderQueue, SceneUpdate};
 use super::request::RenderRequest;

@@ -9,11 +9,13 @@ use guideway_scene::{Frame, Method, View};
 
 use super::{
     FileFormat, FileQuestion, FileStamp, Job, LostPart, PendingFileAnswer, PictureRequest, Saved,
-    WINDOW_ERROR,
 };
 
 /// Longest project file, in bytes: ten thousand files with names of a hundred letters.
 pub const MAX_PROJECT_BYTES: u64 = 1 << 20;
+
+/// Code of errors that the window itself reports.
+pub(crate) const WINDOW_ERROR: &str = "window";
 
 /// Files, pictures and render methods, as the window calls them. Calls come from several threads.
 pub trait AppServices: Send + Sync {

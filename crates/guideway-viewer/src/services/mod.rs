@@ -9,12 +9,11 @@ mod file_stamp;
 mod job;
 mod picture_request;
 mod saved;
-mod window_error;
 
+pub(crate) use app_services::WINDOW_ERROR;
 pub use app_services::{AppServices, LoadStage, MAX_PROJECT_BYTES, MethodChoice};
 pub use file_question::{FileAnswer, FileFormat, FileQuestion, PendingFileAnswer};
 pub use file_stamp::FileStamp;
 pub use job::Job;
 pub use picture_request::{PictureRequest, SweptAreas};
 pub use saved::{LostPart, Saved};
-pub(crate) use window_error::WINDOW_ERROR;
