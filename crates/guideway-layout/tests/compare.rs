@@ -101,7 +101,9 @@ fn finds_each_kind_of_change() {
         ("vehicle types", |l| {
             l.paths.vehicle_types_mut().set(1, &["tug"]);
         }),
-        ("vehicle types", |l| l.vehicle_types[0].id = "truck".into()),
+        ("new vehicle types", |l| {
+            l.vehicle_types[0].id = "truck".into()
+        }),
         ("column maxSpeed", |l| {
             l.paths
                 .vehicle_types_mut()

@@ -2,11 +2,12 @@
 //! operation that saves its results.
 
 use std::process;
-use std::sync::OnceLock;
+use std::sync::{OnceLock, mpsc};
+use std::thread;
 
 use guideway::layout::UserError;
 use guideway::scene::Cancel;
-use rayon::ThreadPoolBuilder;
+use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
 use super::error::{INTERRUPTED, usage_error};
 
@@ -49,8 +50,20 @@ const VARIABLE: &str = "RAYON_NUM_THREADS";
 /// Starts the threads that all stages of a command share.
 pub(super) fn start_threads() -> Result<(), UserError> {
     check_environment()?;
-    let started = ThreadPoolBuilder::new().build_global();
-    started.map_err(|error| {
+    let (started, has_started) = mpsc::channel();
+    // One after the other: a thread that starts in the last of the memory aborts the process, while
+    // one that cannot start is an error.
+    let start = |worker: ThreadBuilder| {
+        let started = started.clone();
+        thread::Builder::new().spawn(move || {
+            let _ = started.send(());
+            worker.run();
+        })?;
+        let _ = has_started.recv();
+        Ok(())
+    };
+    let pool = ThreadPoolBuilder::new().spawn_handler(start);
+    pool.build_global().map_err(|error| {
         let message = format!("cannot start the threads of this run: {error}");
         let remedy = format!("Free some memory, allow more threads, or set {VARIABLE} to 1");
         UserError::new("threads", message, remedy)
