@@ -1,9 +1,10 @@
 //! Statistics of attribute columns: counts, range, unit and most frequent values.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::hash::Hash;
 
-use guideway::layout::{Attribute, Attributes, Quantity, TypeEntries, Values};
+use guideway::layout::{Attribute, Attributes, Quantity, TypeEntries, Value, Values};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -109,12 +110,8 @@ fn of(column: &Attribute, other: Option<&Attribute>) -> Column {
         (Values::Float(a), Some(Values::Float(b))) => numbers(|| a.values().chain(b.values())),
         (Values::Json(a), None) => tally("JSON", a.iter().flatten(), |text| (*text).to_owned()),
         (a, b) => {
-            let texts = |values: &Values| {
-                let text = |row| values.get(row).map(|value| value.to_string());
-                (0..values.len()).filter_map(text).collect::<Vec<_>>()
-            };
-            let all = texts(a).into_iter().chain(b.map(texts).unwrap_or_default());
-            tally("text", all, String::clone)
+            let all = texts(a).chain(b.into_iter().flat_map(texts));
+            tally("text", all, |text| text.clone().into_owned())
         }
     };
     Column {
@@ -122,6 +119,15 @@ fn of(column: &Attribute, other: Option<&Attribute>) -> Column {
         unit: column.quantity.or(quantity).map(Quantity::unit),
         ..statistics
     }
+}
+
+/// The values as texts, without copies of those that are texts.
+fn texts(values: &Values) -> impl Iterator<Item = Cow<'_, str>> {
+    let text = |value| match value {
+        Value::Text(text) => Cow::Borrowed(text),
+        other => Cow::Owned(other.to_string()),
+    };
+    (0..values.len()).filter_map(move |row| values.get(row).map(text))
 }
 
 fn whole_numbers<I: Iterator<Item = i64>>(values: impl Fn() -> I) -> Column {
@@ -182,7 +188,7 @@ fn tally<T: Eq + Hash + Ord>(
 
 #[cfg(test)]
 mod tests {
-    use guideway::layout::{NewPath, Paths, Value};
+    use guideway::layout::{NewPath, Paths};
 
     use super::*;
 
