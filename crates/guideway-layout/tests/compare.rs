@@ -102,7 +102,7 @@ fn finds_each_kind_of_change() {
             l.paths.vehicle_types_mut().set(1, &["tug"]);
         }),
         ("new vehicle types", |l| {
-            l.vehicle_types[0].id = "truck".into()
+            l.vehicle_types[0].id = "truck".into();
         }),
         ("column maxSpeed", |l| {
             l.paths
