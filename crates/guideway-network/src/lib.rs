@@ -18,6 +18,6 @@ mod route;
 pub use analyze::{AnalyzeOptions, analyze, analyze_watched};
 pub use build::{
     BuildError, BuildOptions, BuildReport, DirectionRule, DrawingSources, LayerRule, LeftNote,
-    Network, NoteSource, build,
+    Network, NoteSource, UnmatchedSource, build,
 };
 pub use route::{Place, Route, RouteError, RouteOptions, RouteRow, Router};

@@ -1,5 +1,6 @@
 //! [`Findings`]: findings in compact form, merged over vehicle types and written in words.
 
+use guideway_layout::text_format::counted;
 use guideway_layout::{
     Code, Diagnostics, DisplayPosition, Layout, Member, Place, Severity, element_name,
     element_place,
@@ -153,17 +154,20 @@ fn place(layout: &Layout, element: Member) -> Place {
 fn message(layout: &Layout, detail: Detail) -> String {
     let path = |row: u32| element_name("path", row as usize, layout.paths.id(row as usize));
     match detail {
-        Detail::Part { nodes, paths } => format!(
-            "no path connects this part of {nodes} nodes and {paths} paths with the largest part"
-        ),
+        Detail::Part { nodes, paths } => {
+            let (nodes, paths) = (counted(nodes.into(), "node"), counted(paths.into(), "path"));
+            format!("no path connects this part of {nodes} and {paths} with the largest part")
+        }
         Detail::OneWay {
             nodes,
             can_enter: true,
         } => {
-            format!("vehicles can enter this part of {nodes} nodes, but not leave it")
+            let nodes = counted(nodes.into(), "node");
+            format!("vehicles can enter this part of {nodes}, but not leave it")
         }
         Detail::OneWay { nodes, .. } => {
-            format!("vehicles can leave this part of {nodes} nodes, but not enter it")
+            let nodes = counted(nodes.into(), "node");
+            format!("vehicles can leave this part of {nodes}, but not enter it")
         }
         Detail::Trap => "vehicles can enter this node, but not leave it".to_owned(),
         Detail::Spur => "a two-way path ends here, without a station".to_owned(),

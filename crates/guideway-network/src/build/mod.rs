@@ -42,7 +42,7 @@ use guideway_layout::Layout;
 pub use error::BuildError;
 pub use note_source::NoteSource;
 pub use options::{BuildOptions, DirectionRule, LayerRule};
-pub use report::{BuildReport, LeftNote};
+pub use report::{BuildReport, LeftNote, UnmatchedSource};
 pub use sources::DrawingSources;
 
 use box_index::BoxIndex;

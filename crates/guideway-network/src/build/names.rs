@@ -3,8 +3,8 @@
 //! A note belongs to the nearest node within its reach, else to the nearest line, which is cut
 //! there.
 
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
 
 use guideway_layout::{Layout, Note, NoteKind};
 use guideway_spline::Point;
@@ -16,7 +16,10 @@ use super::box_index::{BoxIndex, Part};
 use super::drawn::Drawn;
 use super::junctions::Cut;
 use super::weld::Nodes;
-use super::{BuildError, BuildOptions, BuildReport};
+use super::{BuildError, BuildOptions, BuildReport, NoteSource, UnmatchedSource};
+
+/// Layers or blocks that are told where no note fits a source.
+const MAX_PRESENT: usize = 5;
 
 /// A station to make.
 #[derive(Clone, Debug)]
@@ -60,6 +63,10 @@ pub(super) fn find(
         return Ok(named);
     }
     let notes = notes(drawing, drawn);
+    let sources = options.stations.iter().chain(&options.names);
+    report
+        .unmatched_sources
+        .extend(sources.filter_map(|source| unmatched(source, &notes)));
     let mut places = Places {
         drawn,
         index,
@@ -70,7 +77,7 @@ pub(super) fn find(
     let text_tree = tree(texts.iter().map(|note| note.position_m));
     let mut known = HashMap::new();
     for (row, note) in notes.iter().enumerate() {
-        let is_in = |sources: &[super::NoteSource]| sources.iter().any(|s| s.has(note));
+        let is_in = |sources: &[NoteSource]| sources.iter().any(|s| s.has(note));
         let (is_station, is_name) = (is_in(&options.stations), is_in(&options.names));
         if !is_station && !is_name {
             continue;
@@ -108,6 +115,23 @@ fn notes(drawing: &Layout, drawn: &Drawn) -> Vec<Note> {
         ..Note::default()
     });
     drawing.notes.iter().cloned().chain(circles).collect()
+}
+
+/// The source and what there is instead, if no note fits it.
+fn unmatched(source: &NoteSource, notes: &[Note]) -> Option<UnmatchedSource> {
+    if notes.iter().any(|note| source.has(note)) {
+        return None;
+    }
+    let of_kind = notes.iter().filter(|note| note.kind == source.kind);
+    let names: BTreeSet<&str> = of_kind.map(NoteSource::name_of).collect();
+    Some(UnmatchedSource {
+        source: source.clone(),
+        present: names
+            .into_iter()
+            .take(MAX_PRESENT)
+            .map(Into::into)
+            .collect(),
+    })
 }
 
 /// The text of a note, else the nearest text, else its kind and number.

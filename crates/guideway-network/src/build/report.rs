@@ -6,7 +6,7 @@ use guideway_layout::Layout;
 use guideway_layout::text_format::{counted, length, single_line};
 use guideway_spline::Point;
 
-use super::BuildOptions;
+use super::{BuildOptions, NoteSource};
 
 /// Notes that the words name.
 const NAMED_NOTES: usize = 5;
@@ -20,6 +20,15 @@ pub struct LeftNote {
     pub name: String,
     /// Its position, in meters.
     pub position_m: Point<f64>,
+}
+
+/// Notes that the options name, and of which the drawing has none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnmatchedSource {
+    /// The notes that the options name.
+    pub source: NoteSource,
+    /// Layers or blocks with notes of that kind in the drawing, in order, up to five.
+    pub present: Vec<String>,
 }
 
 /// The parts that a build joined, cut, named and left.
@@ -77,6 +86,24 @@ pub struct BuildReport {
     pub left_notes: Vec<LeftNote>,
     /// Number of such notes.
     pub left_note_count: u64,
+    /// Sources of stations and names without a note.
+    pub unmatched_sources: Vec<UnmatchedSource>,
+}
+
+impl UnmatchedSource {
+    fn line(&self) -> String {
+        let source = single_line(&self.source.to_string(), NAME_CHARS);
+        let kind = self.source.kind;
+        let present = self
+            .present
+            .iter()
+            .map(|name| single_line(name, NAME_CHARS));
+        let present = match present.collect::<Vec<_>>() {
+            names if names.is_empty() => format!("the drawing has no {kind}"),
+            names => format!("the drawing has them in {}", names.join(", ")),
+        };
+        format!("no note fits {source}: {present}")
+    }
 }
 
 impl BuildReport {
@@ -217,6 +244,7 @@ impl BuildReport {
         );
         say(self.nodes_left, self.left_nodes_line());
         say(self.left_note_count, self.left_notes_line());
+        lines.extend(self.unmatched_sources.iter().map(UnmatchedSource::line));
         lines
     }
 

@@ -4,7 +4,7 @@ use guideway_formats::{ReadOptions, read_bytes};
 use guideway_layout::{Layout, NoteKind};
 use guideway_network::{BuildOptions, DrawingSources};
 
-use crate::sketch::network;
+use crate::sketch::{add_text, drawing, network, split};
 
 /// Reads a drawing in meters, whose group codes and values are separated by `|`.
 fn read(blocks: &str, entities: &str) -> Layout {
@@ -112,4 +112,35 @@ fn sources_list_layers_and_notes_by_name() {
         notes,
         ["text:S 2", "block:Dock 1", "point:D 1", "circle:C 1"]
     );
+}
+
+#[test]
+fn source_without_notes_is_told_with_what_there_is() {
+    let mut layout = drawing(&[[0.0, 0.0, 10.0, 0.0]]);
+    add_text(&mut layout, "END", 9.5, 0.5);
+    let layer = layout.notes[0].layer.clone();
+    let mut options = split();
+    options.stations = vec![
+        "text:nowhere".parse().unwrap(),
+        "block:DOCK".parse().unwrap(),
+    ];
+    let report = network(&layout, &options).report;
+    let found = &report.unmatched_sources;
+    assert_eq!(found.len(), 2);
+    assert_eq!(found[0].present, [layer.as_str()]);
+    let lines = report.lines(&options);
+    let told = |line: &str| lines.iter().any(|own| own == line);
+    assert!(
+        told(&format!(
+            "no note fits text:nowhere: the drawing has them in {layer}"
+        )),
+        "{lines:?}"
+    );
+    assert!(
+        told("no note fits block:DOCK: the drawing has no block"),
+        "{lines:?}"
+    );
+    options.stations = vec![format!("text:{layer}").parse().unwrap()];
+    let report = network(&layout, &options).report;
+    assert!(report.unmatched_sources.is_empty());
 }

@@ -146,6 +146,9 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         .collect();
     let left = made.report.left_notes.iter();
     let left = left.map(|n| json!({ "name": n.name, "at_m": [n.position_m.x, n.position_m.y] }));
+    let unmatched = made.report.unmatched_sources.iter();
+    let unmatched = unmatched
+        .map(|found| json!({ "source": found.source.to_string(), "present": found.present }));
     let body = json!({
         "file": input::names(&args.inputs),
         "output": args.output.to_string_lossy(),
@@ -155,6 +158,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "values_left": made.report.values_left,
         "largest_move_m": made.report.largest_move_m,
         "left_notes": { "count": made.report.left_note_count, "first": left.collect::<Vec<_>>() },
+        "unmatched_sources": unmatched.collect::<Vec<_>>(),
         "findings": kinds.iter().map(|kind| json!({
             "code": kind.code.name(),
             "severity": kind.severity.to_string(),
