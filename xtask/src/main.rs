@@ -85,8 +85,8 @@ fn test() -> Result<()> {
         check_advisories(&deny, manifest)?;
     }
     heading("fuzzing");
-    // Twenty seconds each.
-    fuzz(&["0.33".to_owned()])
+    // Nine seconds each.
+    fuzz(&["0.15".to_owned()])
 }
 
 /// Checks the formats crate with each of its formats alone, and the facade with LIF alone.
