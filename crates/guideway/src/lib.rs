@@ -144,8 +144,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`write()`] writes a given format to a stream. [`arrow::batches`] gives the tables in memory that
-//! data frames and databases take, and [`arrow::read_batches`] makes a layout of them again.
+//! [`write()`] writes a given format to a stream. [`arrow::batches`] gives the tables in memory
+//! that data frames and databases take, and [`arrow::read_batches`] makes a layout of them again.
 //!
 //! # Compose
 //!
