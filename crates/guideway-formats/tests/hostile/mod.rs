@@ -9,6 +9,8 @@ const LIF_HEAD: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [
     {"nodeId": "B", "nodePosition": {"x": 10, "y": 0}}], "edges": ["#;
 
 const MILLION: usize = 1_000_000;
+/// Elements that are read: with so many a quadratic step would take minutes.
+const MANY: usize = 250_000;
 
 /// Generates the file of a name in a folder of bad files.
 pub(crate) fn generate(folder: &str, name: &str) -> Option<Vec<u8>> {
@@ -39,15 +41,15 @@ fn lif(name: &str) -> Option<String> {
             let (open, close) = ("[".repeat(200), "]".repeat(200));
             edge(&format!(r#"{{"maxSpeed": {open}{close}}}"#))
         }
-        "million-empty-edges" => edges(&vec!["{}"; MILLION].join(",")),
-        "million-equal-nodes" => {
+        "many-empty-edges" => edges(&vec!["{}"; MANY].join(",")),
+        "many-equal-nodes" => {
             let node = r#"{"nodeId":"A","nodePosition":{"x":1,"y":1}}"#;
-            let nodes = vec![node; MILLION].join(",");
+            let nodes = vec![node; MANY].join(",");
             format!(r#"{{"layouts": [{{"layoutId": "L", "nodes": [{nodes}]}}]}}"#)
         }
-        "million-layouts" => format!(r#"{{"layouts": [{}]}}"#, vec!["{}"; MILLION].join(",")),
-        "million-types-of-one-edge" => {
-            edge(&join(MILLION, |i| format!(r#"{{"vehicleTypeId":"{i}"}}"#)))
+        "many-layouts" => format!(r#"{{"layouts": [{}]}}"#, vec!["{}"; MANY].join(",")),
+        "many-types-of-one-edge" => {
+            edge(&join(MANY, |i| format!(r#"{{"vehicleTypeId":"{i}"}}"#)))
         }
         "curves-of-one-edge" => edge(&join(10_000, |i| {
             format!(r#"{{"trajectory":{{"controlPoints":[{{"x":0,"y":0}},{{"x":{i},"y":9}}]}}}}"#)
@@ -63,10 +65,10 @@ fn lif(name: &str) -> Option<String> {
                 r#"{{"loadRestriction": {{"loadSetNames": [{sets}]}}}}"#
             ))
         }
-        "million-repeated-keys" => edges(&format!(
+        "many-repeated-keys" => edges(&format!(
             r#"{{{}"edgeId": "E", "startNodeId": "A", "endNodeId": "B",
                 "vehicleTypeEdgeProperties": [{{}}]}}"#,
-            r#""edgeId": "E","#.repeat(MILLION)
+            r#""edgeId": "E","#.repeat(MANY)
         )),
         "long-number" => edge("{}").replace("10,", &format!("9.{},", "9".repeat(MILLION))),
         "heavy-rational" => {
@@ -108,11 +110,11 @@ fn vda_5050(name: &str) -> Option<String> {
             let (open, close) = ("[".repeat(200), "]".repeat(200));
             format!(r#"{{"nodes": [{{"nodeId": "A", "actions": {open}{close}}}], "edges": []}}"#)
         }
-        "million-equal-nodes" => {
+        "many-equal-nodes" => {
             let node = r#"{"nodeId":"A","sequenceId":0,"nodePosition":{"x":1,"y":1}}"#;
-            format!(r#"{{"nodes": [{}]}}"#, vec![node; MILLION].join(","))
+            format!(r#"{{"nodes": [{}]}}"#, vec![node; MANY].join(","))
         }
-        "million-empty-edges" => format!(r#"{{"edges": [{}]}}"#, vec!["{}"; MILLION].join(",")),
+        "many-empty-edges" => format!(r#"{{"edges": [{}]}}"#, vec!["{}"; MANY].join(",")),
         "million-maps" => {
             let node = |i| {
                 let position = format!(r#"{{"x":0,"y":0,"mapId":"{i}"}}"#);
@@ -214,9 +216,9 @@ fn geojson(name: &str) -> Option<String> {
                 vec![point; MILLION / 4].join(",")
             )
         }
-        "million-positions" => line(&format!("[{}]", join(MILLION, |i| format!("[{i},0]")))),
+        "many-positions" => line(&format!("[{}]", join(MANY, |i| format!("[{i},0]")))),
         "long-line" => line(&format!("[{}]", vec!["[0,0]"; MILLION + 1].join(","))),
-        "million-properties" => with(&join(MILLION, |i| format!(r#""p{i}":1"#))),
+        "many-properties" => with(&join(MANY, |i| format!(r#""p{i}":1"#))),
         // The name of each value contains the long name of its object.
         "long-names" => {
             let inner = join(MILLION / 4, |i| format!(r#""{i}":1"#));
@@ -256,9 +258,9 @@ fn open_tcs(name: &str) -> Option<String> {
                 "<path name='P'><pathLayout connectionType='POLYPATH'>{control}</pathLayout></path>"
             ))
         }
-        "million-members" => model(&format!(
+        "many-members" => model(&format!(
             "<block name='K'>{}</block>",
-            "<member name='P'/>".repeat(MILLION)
+            "<member name='P'/>".repeat(MANY)
         )),
         "long-name" => {
             let name = "A".repeat(2 * MILLION);

@@ -145,10 +145,10 @@ fn device_limits_do_not_change_the_picture() {
         ..GpuOptions::default()
     });
     for (scene, shading) in [
-        (plain(3000, 8.0), Shading::Color),
-        (mixed(3000, 8.0), Shading::Color),
-        (colors::opaque(layout(3000, 8.0)), Shading::Color),
-        (plain(3000, 8.0), Shading::Density(ToneMap::Log)),
+        (plain(1500, 8.0), Shading::Color),
+        (mixed(1500, 8.0), Shading::Color),
+        (colors::opaque(layout(1500, 8.0)), Shading::Color),
+        (plain(1500, 8.0), Shading::Density(ToneMap::Log)),
     ] {
         let style = style(shading);
         let (expected, report) = picture(&mut prepared(&tiles, &scene), &all(), &style);

@@ -56,7 +56,7 @@ fn edited(tiles: &Tiles, scene: &Arc<Scene>, edit: &Edit) -> PreparedTiles {
 fn gesture_shows_what_its_edit_leaves() {
     let Some(tiles) = tiles() else { return };
     let style = Style::default();
-    for scene in [plain(3000, 3.0), mixed(3000, 3.0), scene(dense(3000, 1.0))] {
+    for scene in [plain(1500, 3.0), mixed(1500, 3.0), scene(dense(1500, 1.0))] {
         for paths in selections(&scene) {
             let (mut cached, mut uncached) = (prepared(&tiles, &scene), prepared(&tiles, &scene));
             uncached.target.reuses_frames = false;
