@@ -113,15 +113,27 @@ impl VisibleAreas {
         view: &View,
         budget: &Budget,
     ) -> Result<Self, ComposeError> {
+        Self::within(layout, rows, vehicle, view, (budget, MOST_POLYGONS))
+    }
+
+    /// As [`Self::new`], within a budget and a number of polygons.
+    fn within(
+        layout: &Layout,
+        rows: &[u32],
+        vehicle: EnvelopeSource,
+        view: &View,
+        (budget, max_polygons): (&Budget, u64),
+    ) -> Result<Self, ComposeError> {
         let mut tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(MIN_TOLERANCE_M);
         let coarsest_m = f64::from(view.size().height().max(view.size().width())) / view.px_per_m();
         // Counting polygons takes far less time than uniting them.
-        while tolerance_m <= coarsest_m && has_too_many(layout, rows, vehicle, (view, tolerance_m))
-        {
+        let count =
+            |tolerance_m| has_too_many(layout, rows, vehicle, (view, tolerance_m), max_polygons);
+        while tolerance_m <= coarsest_m && count(tolerance_m) {
             tolerance_m *= 2.0;
         }
         let by_path = loop {
-            let cost = Cost::new(budget);
+            let cost = Cost::new(budget, max_polygons);
             let by_path = outlines_by_path(layout, rows, vehicle, (view, tolerance_m), &cost);
             match cost.check() {
                 Ok(()) => break by_path,
@@ -196,6 +208,7 @@ fn has_too_many(
     rows: &[u32],
     vehicle: EnvelopeSource,
     (view, tolerance_m): (&View, f64),
+    max_polygons: u64,
 ) -> bool {
     let shown = view.world_bounds();
     let count = AtomicU64::new(0);
@@ -205,7 +218,7 @@ fn has_too_many(
             sweep.polygons(tolerance_m, Some(shown), &mut |_| polygons += 1);
             count.fetch_add(polygons, Ordering::Relaxed);
         }
-        count.load(Ordering::Relaxed) <= MOST_POLYGONS
+        count.load(Ordering::Relaxed) <= max_polygons
     };
     !rows.par_iter().all(|&path| may_add(path))
 }
@@ -249,15 +262,17 @@ struct Cost {
     union_bytes: AtomicU64,
     polygons: AtomicU64,
     max_bytes: u64,
+    max_polygons: u64,
 }
 
 impl Cost {
-    fn new(budget: &Budget) -> Self {
+    fn new(budget: &Budget, max_polygons: u64) -> Self {
         Self {
             bytes: AtomicU64::new(0),
             union_bytes: AtomicU64::new(0),
             polygons: AtomicU64::new(0),
             max_bytes: budget.memory_bytes,
+            max_polygons,
         }
     }
 
@@ -281,7 +296,7 @@ impl Cost {
     fn check(&self) -> Result<(), RenderError> {
         let load = |count: &AtomicU64| count.load(Ordering::Relaxed);
         let bytes = load(&self.bytes) + load(&self.union_bytes);
-        if bytes <= self.max_bytes && load(&self.polygons) <= MOST_POLYGONS {
+        if bytes <= self.max_bytes && load(&self.polygons) <= self.max_polygons {
             return Ok(());
         }
         Err(RenderError::Budget {

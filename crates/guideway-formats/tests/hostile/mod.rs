@@ -48,9 +48,7 @@ fn lif(name: &str) -> Option<String> {
             format!(r#"{{"layouts": [{{"layoutId": "L", "nodes": [{nodes}]}}]}}"#)
         }
         "many-layouts" => format!(r#"{{"layouts": [{}]}}"#, vec!["{}"; MANY].join(",")),
-        "many-types-of-one-edge" => {
-            edge(&join(MANY, |i| format!(r#"{{"vehicleTypeId":"{i}"}}"#)))
-        }
+        "many-types-of-one-edge" => edge(&join(MANY, |i| format!(r#"{{"vehicleTypeId":"{i}"}}"#))),
         "curves-of-one-edge" => edge(&join(10_000, |i| {
             format!(r#"{{"trajectory":{{"controlPoints":[{{"x":0,"y":0}},{{"x":{i},"y":9}}]}}}}"#)
         })),

@@ -23,7 +23,11 @@ fn half_turns(paths: usize) -> Layout {
     layout
 }
 
-fn visible(paths: usize, memory_bytes: u64) -> Result<SweptReport, ComposeError> {
+fn visible(
+    paths: usize,
+    memory_bytes: u64,
+    max_polygons: u64,
+) -> Result<SweptReport, ComposeError> {
     let view = View::new(FrameSize::new(320, 200).unwrap(), Point::default(), 60.0).unwrap();
     let rows: Vec<u32> = (0..paths as u32).collect();
     let vehicle = EnvelopeSource::Vehicle(Body::vehicle(2.0, 1.2, 1.0));
@@ -31,31 +35,30 @@ fn visible(paths: usize, memory_bytes: u64) -> Result<SweptReport, ComposeError>
         memory_bytes,
         ..Budget::default()
     };
-    let visible = VisibleAreas::new(&half_turns(paths), &rows, vehicle, &view, &budget)?;
+    let limits = (&budget, max_polygons);
+    let visible = VisibleAreas::within(&half_turns(paths), &rows, vehicle, &view, limits)?;
     Ok(visible.report)
 }
 
 #[test]
 fn many_areas_are_coarser_instead_of_slower() {
     let finest_m = TOLERANCE_PX / 60.0;
-    let few = visible(1, 1 << 30).unwrap();
+    let few = visible(1, 1 << 30, MOST_POLYGONS).unwrap();
     assert!(
         (few.tolerance_m - finest_m).abs() < 1e-12 && few.polygons > 50,
         "{few:?}"
     );
-    let many = visible(1000, 1 << 30).unwrap();
-    assert_eq!(many.drawn, 1000);
+    let half = 20 * few.polygons / 2;
+    let many = visible(20, 1 << 30, half).unwrap();
+    assert_eq!(many.drawn, 20);
     assert!(many.tolerance_m > finest_m, "{many:?}");
-    assert!(
-        many.polygons < MOST_POLYGONS && many.polygons > 10_000,
-        "{many:?}"
-    );
+    assert!(many.polygons < half && many.polygons > half / 8, "{many:?}");
 }
 
 #[test]
 fn memory_is_held_to_the_budget() {
-    let little = visible(10, 200_000).unwrap();
+    let little = visible(10, 200_000, MOST_POLYGONS).unwrap();
     assert!(little.tolerance_m > TOLERANCE_PX / 60.0, "{little:?}");
-    let error = visible(10, 200).unwrap_err();
+    let error = visible(10, 200, MOST_POLYGONS).unwrap_err();
     assert!(error.to_string().contains("swept areas"), "{error}");
 }
