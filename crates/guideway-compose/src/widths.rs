@@ -1,9 +1,9 @@
 //! Chooses the widths of lines by what a picture shows: hairlines for drawings and for ways that
 //! would cover each other, thin lines for other ways.
 
-use guideway::layout::{Layout, PathRef};
-use guideway::scene::{LineRule, View};
-use guideway::spline::{Point, uniform};
+use guideway_layout::{Layout, PathRef};
+use guideway_scene::{LineRule, View};
+use guideway_spline::{Point, uniform};
 
 /// Shorter side of a picture whose lines have these widths, in pixels; larger ones have wider
 /// lines.
@@ -22,7 +22,7 @@ const CROWDED: u32 = 3 * CELL as u32;
 const MANY: f64 = 0.2;
 
 /// The widths that suit a layout in a view. Lines with a width of their own keep it.
-pub(super) fn suitable_widths(layout: &Layout, view: &View, is_all_shown: bool) -> LineRule {
+pub fn suitable_widths(layout: &Layout, view: &View, is_all_shown: bool) -> LineRule {
     let size = view.size();
     let side_px = f64::from(size.width().min(size.height()));
     let px_per_point = (side_px / SIDE_PX).max(1.0);
@@ -87,9 +87,9 @@ fn mark(path: PathRef<'_>, view: &View, px_per_point: f64, mut at: impl FnMut(us
 
 #[cfg(test)]
 mod tests {
-    use guideway::layout::NewPath;
-    use guideway::scene::FrameSize;
-    use guideway::spline::Runs;
+    use guideway_layout::NewPath;
+    use guideway_scene::FrameSize;
+    use guideway_spline::Runs;
 
     use super::*;
 
