@@ -1,13 +1,13 @@
 //! Steps that move, turn, mirror and scale elements.
 
-use guideway::document::{Document, Neighbors};
-use guideway::scene::Table;
-use guideway::spline::{Affine, Point};
+use guideway_document::{Document, Neighbors};
+use guideway_scene::Table;
+use guideway_spline::{Affine, Point};
 
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::Members;
-use crate::cli::edit::selection::{NODES, PATHS, STATIONS};
-use crate::cli::edit::step::{Member, StepKind, Touched, optional, required};
+use crate::script::error::StepError;
+use crate::script::members::Members;
+use crate::script::selection::{NODES, PATHS, STATIONS};
+use crate::script::step::{Member, StepKind, Touched, optional, required};
 
 const DETACH: Member = optional(
     "detach",

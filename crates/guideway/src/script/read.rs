@@ -4,18 +4,17 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use guideway::document::Document;
-use guideway::layout::{UserError, shown_path};
+use guideway_document::Document;
+use guideway_layout::{UserError, shown_path};
 use serde_json::{Map, Value};
 
 use super::error::StepError;
-use super::members::Members;
+use super::members::{Folder, Members};
 use super::step::{StepKind, Touched};
 use super::steps::STEPS;
-use crate::cli::limits;
 
-/// A script to perform.
-pub(super) struct Script {
+/// A list of steps that edit a layout: see `docs/edit-script.md`.
+pub struct Script {
     pub(super) steps: Vec<ScriptStep>,
     /// Folder of the script, from which it names other files.
     pub(super) folder: PathBuf,
@@ -33,7 +32,7 @@ impl ScriptStep {
     pub(super) fn perform(
         &self,
         document: &mut Document,
-        folder: &Path,
+        folder: &Folder<'_>,
     ) -> Result<Touched, StepError> {
         let members = Members {
             members: &self.members,
@@ -44,30 +43,45 @@ impl ScriptStep {
 }
 
 impl Script {
-    /// Reads and checks a script.
-    pub(super) fn read(path: &Path) -> Result<Self, UserError> {
+    /// Reads and checks a script of at most `max_bytes` bytes. It names other files from its own
+    /// folder.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or is no script: see [`Self::from_json`].
+    pub fn read(path: &Path, max_bytes: u64) -> Result<Self, UserError> {
         let name = shown_path(path);
-        let limit = limits::limits().file_bytes;
         let read = File::open(path).and_then(|file| {
             let mut bytes = Vec::new();
-            file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+            file.take(max_bytes.saturating_add(1))
+                .read_to_end(&mut bytes)?;
             Ok(bytes)
         });
         let bytes = read.map_err(|error| {
             script_error(format!("{name}: {error}"), "Name a JSON file with steps")
         })?;
-        if bytes.len() as u64 > limit {
+        if bytes.len() as u64 > max_bytes {
             return Err(script_error(
-                format!("{name}: the script has more than {limit} bytes"),
+                format!("{name}: the script has more than {max_bytes} bytes"),
                 "Split it, or raise the limit with `--limit file-bytes=N`",
             ));
         }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::from_json(&bytes, folder).map_err(|error| {
+            let message = format!("{name}: {}", error.message);
+            UserError { message, ..error }
+        })
+    }
+
+    /// Checks a script: `{"steps": [{"do": "rename", "node": "N7", "to": "gate"}]}`. It names other
+    /// files from `folder`.
+    ///
+    /// # Errors
+    /// When the bytes are no JSON of this form, a step is unknown, or a member of a step is unknown
+    /// or missing.
+    pub fn from_json(bytes: &[u8], folder: impl Into<PathBuf>) -> Result<Self, UserError> {
         Ok(Self {
-            steps: Self::steps(&bytes).map_err(|error| {
-                let message = format!("{name}: {}", error.message);
-                UserError { message, ..error }
-            })?,
-            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            steps: Self::steps(bytes)?,
+            folder: folder.into(),
         })
     }
 

@@ -1,8 +1,8 @@
 //! [`StepError`]: the reason why a step fails.
 
-use guideway::document::{OperationError, ShapeError};
-use guideway::layout::UserError;
-use guideway::scene::EditError;
+use guideway_document::{OperationError, ShapeError};
+use guideway_layout::UserError;
+use guideway_scene::EditError;
 
 /// The reason why a step fails.
 #[derive(Debug)]

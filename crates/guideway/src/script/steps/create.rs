@@ -1,13 +1,13 @@
 //! Steps that create nodes, paths on lines, arcs and splines, and stations.
 
-use guideway::document::{Document, NewEdge, Shape};
-use guideway::layout::Direction;
-use guideway::scene::Table;
+use guideway_document::{Document, NewEdge, Shape};
+use guideway_layout::Direction;
+use guideway_scene::Table;
 
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::Members;
-use crate::cli::edit::selection::row_named;
-use crate::cli::edit::step::{Member, StepKind, Touched, optional, required};
+use crate::script::error::StepError;
+use crate::script::members::Members;
+use crate::script::selection::row_named;
+use crate::script::step::{Member, StepKind, Touched, optional, required};
 
 const ID: Member = optional("id", "text", "Name; without it, one is made.");
 const LEVEL: Member = optional("level", "text", "Name of its level.");

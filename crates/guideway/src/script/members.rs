@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use guideway::document::Document;
-use guideway::spline::Point;
+use guideway_document::Document;
+use guideway_formats::ReadOptions;
+use guideway_spline::Point;
 use serde_json::{Map, Value};
 
 use super::error::StepError;
@@ -11,8 +12,13 @@ use super::error::StepError;
 /// The members of a step, without `do`.
 pub(super) struct Members<'a> {
     pub(super) members: &'a Map<String, Value>,
-    /// Folder from which the script names files.
-    pub(super) folder: &'a Path,
+    pub(super) folder: &'a Folder<'a>,
+}
+
+/// The folder from which a script names files, and how they are read.
+pub(super) struct Folder<'a> {
+    pub(super) path: &'a Path,
+    pub(super) options: &'a ReadOptions<'a>,
 }
 
 impl<'a> Members<'a> {
@@ -133,7 +139,7 @@ impl<'a> Members<'a> {
 
     /// A file, from the folder of the script.
     pub(super) fn file(&self, name: &'static str) -> Result<PathBuf, StepError> {
-        Ok(self.folder.join(self.text(name)?))
+        Ok(self.folder.path.join(self.text(name)?))
     }
 }
 

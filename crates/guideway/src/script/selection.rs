@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use guideway::document::{Document, Elements, PathSet, Query};
-use guideway::scene::Table;
+use guideway_document::{Document, Elements, PathSet, Query};
+use guideway_scene::Table;
 use serde_json::Value;
 
 use super::error::StepError;

@@ -1,8 +1,8 @@
 //! Values of properties in a script: degrees become radians, lists become JSON texts.
 
-use guideway::document::Document;
-use guideway::layout::{Attributes, Property, Quantity, Value};
-use guideway::scene::Table;
+use guideway_document::Document;
+use guideway_layout::{Attributes, Property, Quantity, Value};
+use guideway_scene::Table;
 use serde_json::Value as Json;
 
 /// A value that owns its text.

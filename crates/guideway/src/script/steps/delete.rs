@@ -1,11 +1,11 @@
 //! The step that deletes elements.
 
-use guideway::document::Document;
+use guideway_document::Document;
 
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::Members;
-use crate::cli::edit::selection::{NODES, PATHS, STATIONS};
-use crate::cli::edit::step::{StepKind, Touched, optional};
+use crate::script::error::StepError;
+use crate::script::members::Members;
+use crate::script::selection::{NODES, PATHS, STATIONS};
+use crate::script::step::{StepKind, Touched, optional};
 
 pub(super) const DELETE: StepKind = StepKind {
     name: "delete",

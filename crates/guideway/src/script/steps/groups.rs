@@ -1,13 +1,13 @@
 //! Steps that create, change and delete levels and vehicle types.
 
-use guideway::document::{Document, Elements, LevelContent, LevelFacts, TypeUse};
-use guideway::layout::Attributes;
+use guideway_document::{Document, Elements, LevelContent, LevelFacts, TypeUse};
+use guideway_layout::Attributes;
 use serde_json::Value;
 
 use super::values::Given;
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::{Members, wrong};
-use crate::cli::edit::step::{Member, StepKind, Touched, optional, required};
+use crate::script::error::StepError;
+use crate::script::members::{Members, wrong};
+use crate::script::step::{Member, StepKind, Touched, optional, required};
 
 const LEVEL: Member = required("level", "text", "Identifier or name of the level.");
 const TYPE: Member = required("vehicle_type", "text", "Name of the vehicle type.");
@@ -233,9 +233,7 @@ fn given<'a>(
     Ok(properties.iter().map(given).collect())
 }
 
-fn values<'a>(
-    given: &'a [(&'a str, Given)],
-) -> Vec<(&'a str, Option<guideway::layout::Value<'a>>)> {
+fn values<'a>(given: &'a [(&'a str, Given)]) -> Vec<(&'a str, Option<guideway_layout::Value<'a>>)> {
     given
         .iter()
         .map(|(name, value)| (*name, value.value()))

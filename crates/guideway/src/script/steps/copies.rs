@@ -2,16 +2,15 @@
 
 use std::sync::Arc;
 
-use guideway::document::Document;
-use guideway::formats::read_file;
-use guideway::scene::SceneOptions;
-use guideway::spline::Affine;
+use guideway_document::Document;
+use guideway_formats::read_file;
+use guideway_scene::SceneOptions;
+use guideway_spline::Affine;
 
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::Members;
-use crate::cli::edit::selection::{NODES, PATHS, STATIONS};
-use crate::cli::edit::step::{StepKind, Touched, optional, required};
-use crate::cli::limits;
+use crate::script::error::StepError;
+use crate::script::members::Members;
+use crate::script::selection::{NODES, PATHS, STATIONS};
+use crate::script::step::{StepKind, Touched, optional, required};
 
 /// Most copies of one step: a slip of the keyboard must not fill the memory.
 const MAX_COPIES: u32 = 10_000;
@@ -64,8 +63,8 @@ pub(super) const PASTE: StepKind = StepKind {
 fn paste(members: &Members<'_>, document: &mut Document) -> Result<Touched, StepError> {
     let file = members.file("from")?;
     let failed = |what: String, remedy: &str| StepError::of_member("from", what, remedy);
-    let layout = read_file(&file, &limits::read_options(None)).map_err(|error| {
-        let error = guideway::layout::UserError::from(error);
+    let layout = read_file(&file, members.folder.options).map_err(|error| {
+        let error = guideway_layout::UserError::from(error);
         failed(error.message, &error.remedy)
     })?;
     let source = Document::new(Arc::new(layout), &SceneOptions::default())

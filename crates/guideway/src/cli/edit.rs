@@ -1,41 +1,20 @@
 //! `guideway edit`: edits a layout by a script of steps in JSON.
-//!
-//! | module | input | output |
-//! |---|---|---|
-//! | `script` | the file | its steps, or where it is wrong |
-//! | `step`, `error` | | the kinds of steps, what they have touched, and their errors |
-//! | `members` | a step | its members as numbers, points, names |
-//! | `selection` | `all`, names or a query | rows of the document |
-//! | `steps` | a step, a document | the edited document |
-//! | `page` | the kinds of steps | the table of the help and of the page |
-
-mod error;
-mod members;
-mod page;
-mod script;
-mod selection;
-mod step;
-mod steps;
 
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::Instant;
 
-use guideway::document::Document;
 use guideway::layout::{UserError, shown_path};
-use guideway::scene::{SceneOptions, Table, elapsed_ms};
+use guideway::scene::Table;
+use guideway::script::{self, Applied, AppliedStep, SHOWN_NAMES, Script};
 use serde_json::{Value, json};
 
-use self::script::Script;
-use self::step::{SHOWN_NAMES, Touched};
 use super::convert::{target_to_save, write};
 use super::error::Exit;
 use super::input::{self, Input};
 use super::output::Output;
-use super::text;
+use super::{limits, text};
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "`guideway edit --help` lists the steps.", after_long_help = page::help())]
+#[command(after_help = "`guideway edit --help` lists the steps.", after_long_help = script::help())]
 pub(crate) struct Args {
     /// Layout file; the content decides the format
     #[arg(value_name = "FILE", value_parser = Input::parser())]
@@ -51,15 +30,8 @@ pub(crate) struct Args {
     dry_run: bool,
 }
 
-/// A step that was performed.
-struct Done {
-    name: String,
-    touched: Touched,
-    ms: f64,
-}
-
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    let script = Script::read(&args.script)?;
+    let script = Script::read(&args.script, limits::limits().file_bytes)?;
     let output = args.output.as_ref().filter(|_| !args.dry_run);
     if let Some(output) = output {
         let inputs = [args.input.path.as_path(), args.script.as_path()];
@@ -70,31 +42,18 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let target = output
         .map(|output| target_to_save(&layout, output))
         .transpose()?;
-    let mut document = Document::new(Arc::new(layout), &SceneOptions::default())?;
     let progress = out.progress("editing");
-    let mut done = Vec::new();
-    for (number, step) in (1..).zip(&script.steps) {
-        let started = Instant::now();
-        let touched = step
-            .perform(&mut document, &script.folder)
-            .map_err(|error| {
-                let file = shown_path(&args.script);
-                let (what, remedy) = (error.describe(&step.name), error.remedy);
-                let remedy = format!("{remedy}. No step was kept and nothing was written");
-                UserError::new(
-                    "edit-script",
-                    format!("{file}: step {number} {what}"),
-                    remedy,
-                )
-            })?;
-        done.push(Done {
-            name: step.name.clone(),
-            touched,
-            ms: elapsed_ms(started),
-        });
-    }
+    let applied = script.apply(layout, &limits::read_options(None));
+    let Applied { layout, steps } = applied.map_err(|error| {
+        let message = format!("{}: {}", shown_path(&args.script), error.message);
+        let remedy = format!("{} and nothing was written", error.remedy);
+        UserError {
+            message,
+            remedy,
+            ..error
+        }
+    })?;
     let edit_ms = progress.finish();
-    let layout = document.to_layout();
     let mut write_ms = 0.0;
     let mut written = None;
     if let (Some(output), Some(target)) = (output, target) {
@@ -112,13 +71,13 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "script": args.script.to_string_lossy(),
         "output": output.map(|output| output.to_string_lossy()),
         "dry_run": args.dry_run,
-        "steps": done.iter().zip(1..).map(step_json).collect::<Vec<_>>(),
+        "steps": steps.iter().zip(1..).map(step_json).collect::<Vec<_>>(),
         "refused": refused,
         "not_stored": lost.collect::<Vec<Value>>(),
         "ms": { "read": read_ms, "edit": edit_ms, "write": write_ms, "total": total_ms },
     });
     out.report("edit", &body, || {
-        let lines = done
+        let lines = steps
             .iter()
             .zip(1..)
             .map(|(step, number)| step_line(step, number));
@@ -143,7 +102,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     Ok(Exit::Clean)
 }
 
-fn step_json((step, number): (&Done, u32)) -> Value {
+fn step_json((step, number): (&AppliedStep, u32)) -> Value {
     let touched = &step.touched;
     json!({
         "step": number,
@@ -158,7 +117,7 @@ fn step_json((step, number): (&Done, u32)) -> Value {
 }
 
 /// `  3 set: 12 paths: aisle-1, aisle-2, ...`.
-fn step_line(step: &Done, number: u32) -> String {
+fn step_line(step: &AppliedStep, number: u32) -> String {
     let touched = &step.touched;
     let counts = [Table::Paths, Table::Nodes, Table::Stations].map(|of| (of, touched.count(of)));
     let counts = counts.iter().filter(|(_, count)| *count > 0);

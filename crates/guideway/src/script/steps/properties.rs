@@ -1,13 +1,13 @@
 //! Steps that set properties, names, vehicle types and levels.
 
-use guideway::document::{Document, PropertyRef};
-use guideway::scene::Table;
+use guideway_document::{Document, PropertyRef};
+use guideway_scene::Table;
 
 use super::values::Given;
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::Members;
-use crate::cli::edit::selection::{NODES, PATHS, STATIONS, row_named};
-use crate::cli::edit::step::{StepKind, Touched, optional, required};
+use crate::script::error::StepError;
+use crate::script::members::Members;
+use crate::script::selection::{NODES, PATHS, STATIONS, row_named};
+use crate::script::step::{StepKind, Touched, optional, required};
 
 pub(super) const SET: StepKind = StepKind {
     name: "set",

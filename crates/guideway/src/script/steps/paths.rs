@@ -1,12 +1,12 @@
 //! Steps that reverse paths, and make them one-way or two-way.
 
-use guideway::document::{Document, Elements};
-use guideway::layout::Direction;
+use guideway_document::{Document, Elements};
+use guideway_layout::Direction;
 
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::Members;
-use crate::cli::edit::selection::PATHS;
-use crate::cli::edit::step::{StepKind, Touched};
+use crate::script::error::StepError;
+use crate::script::members::Members;
+use crate::script::selection::PATHS;
+use crate::script::step::{StepKind, Touched};
 
 pub(super) const REVERSE: StepKind = StepKind {
     name: "reverse",

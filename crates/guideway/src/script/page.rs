@@ -3,7 +3,7 @@
 use super::steps::STEPS;
 
 /// The steps for a terminal.
-pub(super) fn help() -> String {
+pub fn help() -> String {
     let mut text = "A script is an object with a list of steps. A step that fails leaves the \
                     layout as it was, and nothing is written. Lengths are in meters, speeds in \
                     m/s, angles in degrees.\n\nSteps:\n"
@@ -25,12 +25,14 @@ mod tests {
     use std::path::Path;
     use std::sync::Arc;
 
-    use guideway::document::Document;
-    use guideway::scene::SceneOptions;
+    use guideway_document::Document;
+    use guideway_formats::ReadOptions;
+    use guideway_scene::SceneOptions;
 
     use super::*;
-    use crate::cli::edit::script::Script;
-    use crate::cli::edit::step::Touched;
+    use crate::script::Script;
+    use crate::script::Touched;
+    use crate::script::members::Folder;
 
     /// The steps in Markdown.
     fn markdown() -> String {
@@ -51,7 +53,7 @@ mod tests {
 
     #[test]
     fn the_page_has_the_table_of_every_step() {
-        let page = include_str!("../../../docs/edit-script.md");
+        let page = include_str!("../../docs/edit-script.md");
         let expected = markdown();
         let is_at_end = page.trim_end().ends_with(expected.trim_end());
         assert!(is_at_end, "the page must end with\n{expected}");
@@ -60,18 +62,20 @@ mod tests {
     #[test]
     fn every_example_runs_on_the_example_site() {
         let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-        let layout = Arc::new(guideway::open(examples.join("site.lif.json")).unwrap());
-        let folder = tempfile::tempdir().unwrap();
+        let layout = Arc::new(crate::open(examples.join("site.lif.json")).unwrap());
+        let folder = Folder {
+            path: &examples,
+            options: &ReadOptions::default(),
+        };
         for kind in STEPS {
-            let file = folder.path().join("steps.json");
-            std::fs::write(&file, format!("{{\"steps\": [{}]}}", kind.example)).unwrap();
-            let script = Script::read(&file).unwrap();
+            let steps = format!("{{\"steps\": [{}]}}", kind.example);
+            let script = Script::from_json(steps.as_bytes(), &examples).unwrap();
             let options = SceneOptions::default();
             let mut document = Document::new(Arc::clone(&layout), &options).unwrap();
             let mut touched = Touched::default();
             // An example may need a step before.
             for step in &script.steps {
-                let done = step.perform(&mut document, &examples);
+                let done = step.perform(&mut document, &folder);
                 touched = done.unwrap_or_else(|error| panic!("{}: {error:?}", kind.name));
             }
             assert!(!touched.names.is_empty(), "{} touches nothing", kind.name);

@@ -1,12 +1,12 @@
 //! Steps that split, join, weld, straighten, align, distribute and round.
 
-use guideway::document::{AlignTo, Document, Elements, PathSet};
-use guideway::scene::Table;
+use guideway_document::{AlignTo, Document, Elements, PathSet};
+use guideway_scene::Table;
 
-use crate::cli::edit::error::StepError;
-use crate::cli::edit::members::Members;
-use crate::cli::edit::selection::{NODES, PATHS, row_named};
-use crate::cli::edit::step::{Member, StepKind, Touched, optional, required};
+use crate::script::error::StepError;
+use crate::script::members::Members;
+use crate::script::selection::{NODES, PATHS, row_named};
+use crate::script::step::{Member, StepKind, Touched, optional, required};
 
 const NODE: Member = required("node", "text", "Name of the node.");
 

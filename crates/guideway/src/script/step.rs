@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use guideway::document::{Document, Elements};
-use guideway::scene::Table;
+use guideway_document::{Document, Elements};
+use guideway_scene::Table;
 
 use super::error::StepError;
 use super::members::Members;
 
 /// Names per step that a report lists.
-pub(super) const SHOWN_NAMES: usize = 10;
+pub const SHOWN_NAMES: usize = 10;
 
 /// A kind of step.
 pub(super) struct StepKind {
@@ -59,12 +59,12 @@ pub(super) const fn optional(
 
 /// The elements that a step touched, or made.
 #[derive(Debug, Default)]
-pub(super) struct Touched {
+pub struct Touched {
     elements: Elements,
-    /// Their names, those of the first ones only.
-    pub(super) names: Vec<String>,
+    /// Their names, those of the first ones only: at most one more than [`SHOWN_NAMES`].
+    pub names: Vec<String>,
     /// Number of values per property that went with their elements.
-    pub(super) lost: BTreeMap<String, usize>,
+    pub lost: BTreeMap<String, usize>,
 }
 
 impl Touched {
@@ -111,7 +111,8 @@ impl Touched {
         Self::of(elements, document)
     }
 
-    pub(super) fn count(&self, of: Table) -> u64 {
+    /// Number of elements of a table.
+    pub fn count(&self, of: Table) -> u64 {
         self.elements.rows(of).len()
     }
 }
