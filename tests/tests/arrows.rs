@@ -92,6 +92,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-bench",
         ],
     ),
+    ("guideway-python", &["guideway"]),
 ];
 
 const SPLINE: &[&str] = &["guideway-spline"];
@@ -134,6 +135,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("toml", "guideway guideway-network guideway-viewer"),
     ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),
+    ("pyo3", "guideway-python"),
 ];
 
 type Dependencies = BTreeMap<String, Vec<String>>;

@@ -4,6 +4,7 @@ mod conformance;
 mod prerequisites;
 mod step;
 
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::LazyLock;
@@ -67,6 +68,8 @@ fn test() -> Result<()> {
     prerequisites::software_devices()?;
     step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
     quick()?;
+    heading("Python package");
+    python_package(&python)?;
     heading("each format by itself, and the library with one");
     single_formats()?;
     heading("conformance, a few files per format");
@@ -87,6 +90,60 @@ fn test() -> Result<()> {
     heading("fuzzing");
     // Nine seconds each.
     fuzz(&["0.15".to_owned()])
+}
+
+/// Tests the Python package: its own files beside the extension module that the workspace built.
+fn python_package(python: &Path) -> Result<()> {
+    build_with_workspace()?;
+    let built = std::env::current_exe()?;
+    let built = built.parent().context("xtask has no folder")?;
+    let packages = built.join("python");
+    let package = packages.join("guideway");
+    std::fs::create_dir_all(&package)?;
+    for file in std::fs::read_dir("python/guideway")? {
+        let file = file?;
+        std::fs::copy(file.path(), package.join(file.file_name()))?;
+    }
+    let module = format!("{DLL_PREFIX}_guideway{DLL_SUFFIX}");
+    let suffix = if cfg!(windows) { "pyd" } else { "abi3.so" };
+    let target = package.join(format!("_guideway.{suffix}"));
+    std::fs::copy(built.join(module), target)?;
+    let run = |args: &[&str]| {
+        let here = step::command(python).args(args);
+        let here = here.env("PYTHONPATH", &packages);
+        here.env("MYPYPATH", &packages).run()
+    };
+    run(&[
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "python/tests",
+    ])?;
+    // The stubs: consistent, true to the module, and enough for the tests.
+    run(&["-m", "mypy.stubtest", "guideway"])?;
+    run(&[
+        "-m",
+        "mypy",
+        "--strict",
+        "--ignore-missing-imports",
+        "python/tests",
+    ])
+}
+
+/// Builds what the tests leave out, with the workspace, as for the tests: alone it would rebuild
+/// its dependencies with other features.
+fn build_with_workspace() -> Result<()> {
+    cargo(&[
+        "build",
+        "--quiet",
+        "--workspace",
+        "--lib",
+        "--example",
+        "fuzz",
+    ])
+    .run()
 }
 
 /// Checks the formats crate with each of its formats alone, and the facade with LIF alone.
@@ -140,9 +197,7 @@ fn check_advisories(deny: &Path, manifest: &str) -> Result<()> {
 
 fn fuzz(args: &[String]) -> Result<()> {
     CARGO_FUZZ.ensure()?;
-    // Built with the workspace, as for the tests: alone it would rebuild its dependencies with
-    // other features.
-    cargo(&["build", "--quiet", "--workspace", "--example", "fuzz"]).run()?;
+    build_with_workspace()?;
     let built = std::env::current_exe()?.with_file_name("examples");
     step::command(built.join("fuzz")).args(args).run()
 }

@@ -94,14 +94,23 @@ pub(crate) fn rust_components() -> Result<()> {
     Ok(())
 }
 
-/// A Python with pyarrow, polars, jsonschema and lxml, in a virtual environment under `target/`,
-/// for tests that read Guideway's files with other programs.
+/// A Python in a virtual environment under `target/`, for tests that read Guideway's files with
+/// other programs, and for those of the Python package.
 pub(crate) fn python() -> Result<PathBuf> {
-    let packages = ["pyarrow", "polars", "jsonschema", "lxml"];
+    let packages = [
+        "duckdb",
+        "jsonschema",
+        "lxml",
+        "mypy",
+        "pandas",
+        "polars",
+        "pyarrow",
+        "pytest",
+    ];
     environment(
         "python",
         &packages,
-        "import pyarrow, polars, jsonschema, lxml",
+        &format!("import {}", packages.join(", ")),
     )
 }
 

@@ -59,6 +59,7 @@ mod render;
 mod text;
 mod vector;
 mod vector_file;
+mod widths;
 
 pub use backdrop::{
     Backdrop, FloorPlan, FloorPlanKind, Image, PreparedFloorPlan, SweptAreas, SweptReport,
@@ -75,3 +76,4 @@ pub use png_writer::{PngHeader, save_png, save_png_by, world_file, write_png_by}
 pub use render::{NoProgress, Rendered, StripSink};
 pub use text::{SystemFont, system_font};
 pub use vector_file::VectorFormat;
+pub use widths::suitable_widths;

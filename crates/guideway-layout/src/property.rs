@@ -40,6 +40,21 @@ pub enum ElementKind {
     Zone,
 }
 
+impl ElementKind {
+    /// Name of one such element, in lower case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Path => "path",
+            Self::Node => "node",
+            Self::Station => "station",
+            Self::Level => "level",
+            Self::VehicleType => "vehicle type",
+            Self::Block => "block",
+            Self::Zone => "zone",
+        }
+    }
+}
+
 /// A property that has one name and unit in the layout, whatever its formats call it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Property {

@@ -14,6 +14,7 @@
 //! | [`envelope`] | the areas that vehicles sweep, and their distances |
 //! | [`scene`] | colors, widths and draw order; edits; the contract of all render methods |
 //! | [`document`] | a layout under edit: selection, search, undo, journal |
+//! | `script` | edits by a list of steps in JSON, with the feature `script` |
 //! | [`compose`] | the finished picture as PNG or SVG, with backdrop, labels, legend and title |
 //! | [`methods`], [`method`] | the render methods of this build |
 //!
@@ -172,6 +173,8 @@
 
 mod files;
 mod methods;
+#[cfg(feature = "script")]
+pub mod script;
 
 pub use guideway_compose as compose;
 pub use guideway_cpu as cpu;

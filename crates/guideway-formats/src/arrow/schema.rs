@@ -11,7 +11,7 @@ use super::column_names::{
     VERSION_KEY, WIDTH, X, Y,
 };
 use super::column_types::{
-    is_curve, is_id, is_integer, is_integers, is_members, is_number, is_points, is_text, is_texts,
+    is_curve, is_id, is_integers, is_members, is_number, is_points, is_text, is_texts,
 };
 use super::problems::wrong_structure;
 use crate::Problem;
@@ -73,21 +73,21 @@ const fn rule(
 /// The columns with a meaning except the control points, in the order of the roles.
 const RULES: [Rule; 22] = [
     rule(Role::Id, ID, 1, is_id, "text or integers"),
-    rule(Role::Part, PART, 1, is_integer, "uint32"),
+    rule(Role::Part, PART, 1, is_number, "uint32"),
     rule(Role::Level, LEVEL, 1, is_id, "text"),
     rule(Role::Width, WIDTH, 1, is_number, "float32"),
-    rule(Role::Color, COLOR, 1, is_integer, "uint32"),
-    rule(Role::Rank, RANK, 1, is_integer, "int32"),
+    rule(Role::Color, COLOR, 1, is_number, "uint32"),
+    rule(Role::Rank, RANK, 1, is_number, "int32"),
     rule(Role::Element, ELEMENT, 2, is_text, "text"),
-    rule(Role::StartNode, START_NODE, 2, is_integer, "uint32"),
-    rule(Role::EndNode, END_NODE, 2, is_integer, "uint32"),
+    rule(Role::StartNode, START_NODE, 2, is_number, "uint32"),
+    rule(Role::EndNode, END_NODE, 2, is_number, "uint32"),
     rule(Role::Direction, DIRECTION, 2, is_text, "text"),
     rule(Role::VehicleTypes, VEHICLE_TYPES, 2, is_texts, "list<text>"),
     rule(Role::Curve, CURVE, 2, is_curve, CURVE_TYPE),
     rule(Role::X, X, 2, is_number, "float64"),
     rule(Role::Y, Y, 2, is_number, "float64"),
     rule(Role::Nodes, NODES, 2, is_integers, "list<uint32>"),
-    rule(Role::Of, OF, 2, is_integer, "uint32"),
+    rule(Role::Of, OF, 2, is_number, "uint32"),
     rule(Role::LevelName, LEVEL_NAME, 2, is_text, "text"),
     rule(Role::Elevation, ELEVATION, 2, is_number, "float64"),
     rule(Role::Members, MEMBERS, 2, is_members, MEMBERS_TYPE),

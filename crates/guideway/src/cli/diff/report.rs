@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use guideway::layout::{Change, ChangedTexts, Changes, ElementChange, ElementKind, shown_path};
+use guideway::layout::{Change, ChangedTexts, Changes, ElementChange, shown_path};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
@@ -27,7 +27,7 @@ impl Report {
     pub(super) fn new(files: [&Path; 2], found: &Changes<'_>, ms: [f64; 2]) -> Self {
         let mut counts = BTreeMap::new();
         for of in found.elements.iter() {
-            let key = (element_name(of.element), kind_name(of.change));
+            let key = (of.element.name(), kind_name(of.change));
             *counts.entry(key).or_default() += 1;
         }
         let name = |file: &Path| text::single_line(&shown_path(file), MAX_NAME);
@@ -137,7 +137,7 @@ fn each_change<S: Serializer>(found: &Changes<'_>, to: S) -> Result<S::Ok, S::Er
 fn name_of(found: &Changes<'_>, all: &[ElementChange]) -> String {
     let of = all.first();
     of.map_or_else(String::new, |of| {
-        format!("{} `{}`", element_name(of.element), cut(found.id(of)))
+        format!("{} `{}`", of.element.name(), cut(found.id(of)))
     })
 }
 
@@ -145,18 +145,6 @@ fn name_of(found: &Changes<'_>, all: &[ElementChange]) -> String {
 fn rest(found: &Changes<'_>, max: usize) -> Option<String> {
     let more = found.elements.element_count().saturating_sub(max) as u64;
     (more > 0).then(|| text::counted(more, "more element"))
-}
-
-fn element_name(kind: ElementKind) -> &'static str {
-    match kind {
-        ElementKind::Path => "path",
-        ElementKind::Node => "node",
-        ElementKind::Station => "station",
-        ElementKind::Level => "level",
-        ElementKind::VehicleType => "vehicle type",
-        ElementKind::Block => "block",
-        ElementKind::Zone => "zone",
-    }
 }
 
 fn kind_name(change: Change) -> &'static str {
@@ -196,7 +184,7 @@ fn set(values: &ChangedTexts<'_>) -> String {
 
 fn element_json(found: &Changes<'_>, of: &ElementChange) -> Value {
     let mut object = json!({
-        "element": element_name(of.element),
+        "element": of.element.name(),
         "id": found.id(of),
         "change": kind_name(of.change),
     });

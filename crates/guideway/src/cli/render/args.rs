@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use guideway::AUTO;
-use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport};
+use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport, suitable_widths};
 use guideway::layout::{Layout, UserError};
 use guideway::scene::{Budget, ColorBy, Scene, SceneOptions, Shading, Style};
 
@@ -11,7 +11,6 @@ use super::decoration_args::DecorationArgs;
 use super::style_args::StyleArgs;
 use super::target::Target;
 use super::view_args::ViewArgs;
-use super::widths::suitable_widths;
 use crate::cli::error::usage_error;
 use crate::cli::input::{Input, PLACEMENT_HELP, check_output};
 use crate::cli::picture_file::{PictureFormat, default_name};
