@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway::document::Document;
+use guideway::document::{CopiesOf, Document};
 use guideway::formats::read_file;
 use guideway::scene::SceneOptions;
 use guideway::spline::Affine;
@@ -12,9 +12,6 @@ use crate::cli::edit::members::Members;
 use crate::cli::edit::selection::{NODES, PATHS, STATIONS};
 use crate::cli::edit::step::{StepKind, Touched, optional, required};
 use crate::cli::limits;
-
-/// Most copies of one step: a slip of the keyboard must not fill the memory.
-const MAX_COPIES: u32 = 10_000;
 
 pub(super) const COPY: StepKind = StepKind {
     name: "copy",
@@ -32,7 +29,7 @@ pub(super) const COPY: StepKind = StepKind {
 
 fn copy(members: &Members<'_>, document: &mut Document) -> Result<Touched, StepError> {
     let elements = members.elements(document)?;
-    let count = members.count("count", MAX_COPIES)?;
+    let count = members.count("count", CopiesOf::MAX_COUNT)?;
     let copied = document.copy(&elements, count, members.point("step")?)?;
     Ok(Touched::of(copied, document))
 }
