@@ -28,7 +28,7 @@ pub enum EditError {
     },
     /// Copies would exceed a limit.
     TooManyCopies {
-        /// What is counted, such as `copies`.
+        /// Their kind, such as `copies`.
         what: &'static str,
         /// Their number.
         count: u64,
