@@ -39,6 +39,7 @@ DIFFERENT = {
     "shapes/rect/q-values": "resvg does not know the unit Q",
     "shapes/rect/rem-values": "resvg does not know the unit rem",
     "structure/systemLanguage/on-svg": "a page in another language is drawn all the same",
+    "structure/style-attribute/non-presentational-attribute": "styles state lengths, as SVG 2 says",
     "structure/svg/no-size": "the page of resvg is its content",
 }
 

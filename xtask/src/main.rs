@@ -23,6 +23,7 @@ cargo xtask style [WORD]
                         module circles and breaches of the style rules (in files named WORD)
 cargo xtask fuzz [MINUTES [TARGET...]]
                         each fuzz target for that time (default: 1)
+cargo xtask sanitize    reading of Arrow files, whose decoder has code in C, under AddressSanitizer
 cargo xtask conformance [--quick] [FORMAT...]
                         what is read and written, compared with other implementations; a table
 cargo xtask soak [MINUTES [SEED [FILE]]]
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         ("quick", []) => quick(),
         ("conformance", rest) => conformance::run(rest),
         ("fuzz", rest) => fuzz(rest),
+        ("sanitize", []) => sanitize(),
         ("soak", rest) => soak(rest),
         ("style", []) => style(""),
         ("style", [word]) => style(word),
@@ -200,6 +202,27 @@ fn fuzz(args: &[String]) -> Result<()> {
     build_with_workspace()?;
     let built = std::env::current_exe()?.with_file_name("examples");
     step::command(built.join("fuzz")).args(args).run()
+}
+
+/// Runs the law of reading over the seeds and mutants of Arrow files under AddressSanitizer, in a
+/// target folder of its own. It watches the C code of zstd too.
+fn sanitize() -> Result<()> {
+    const HOST: &str = "x86_64-unknown-linux-gnu";
+    if !cfg!(all(
+        target_os = "linux",
+        target_arch = "x86_64",
+        target_env = "gnu"
+    )) {
+        bail!("the sanitizer is set up for {HOST} only");
+    }
+    cargo(&["test", "--package", "guideway-laws", "--test", "mutants"])
+        .args(["--target", HOST, "--target-dir", "target/sanitize"])
+        .args(["--", "--exact", "arrow"])
+        // A stable compiler has the sanitizer, but takes its option only so.
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("RUSTFLAGS", "-Zsanitizer=address")
+        .env(&format!("CFLAGS_{HOST}"), "-fsanitize=address")
+        .run()
 }
 
 /// Runs the soak test of the window, which takes its arguments from the environment.

@@ -30,6 +30,15 @@ pub struct CopiesOf {
     pub step_m: Point<f64>,
 }
 
+impl CopiesOf {
+    /// Most copies of one change: a slip of the keyboard must not fill the memory.
+    pub const MAX_COUNT: u32 = 10_000;
+
+    /// Most control points and elements of a document with its copies. A journal asks for copies in
+    /// some bytes, so that nothing else bounds them. Derived: 2 GiB of control points.
+    pub(crate) const MAX_SIZE: u64 = 1 << 27;
+}
+
 /// Rows of nodes and their new positions, in meters.
 pub type NodeMoves = Arc<[(u32, Point<f64>)]>;
 

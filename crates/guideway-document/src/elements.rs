@@ -62,6 +62,11 @@ impl Elements {
         }
     }
 
+    /// Number of elements.
+    pub(crate) fn len(&self) -> u64 {
+        self.paths.len() + self.nodes.len() + self.stations.len()
+    }
+
     /// Memory of the rows, in bytes.
     pub(crate) fn heap_bytes(&self) -> usize {
         let sets = [&self.paths, &self.nodes, &self.stations];

@@ -3,14 +3,15 @@
 
 use guideway_layout::Place;
 
-use crate::Problem;
 use crate::sniff::{format_of_key, root_keys, root_tag};
 use crate::text::without_mark;
+use crate::{Format, Problem};
 
 const UNPACK: &str = "Unpack it first; of packed files, only those of gzip are read";
 const CONVERT: &str = "Convert it with GDAL: `ogr2ogr -f GeoJSON FILE.geojson FILE`";
 const IMAGE: &str = "Show it below a layout with `--floor-plan`, or trace it in a drawing program \
                      that writes SVG or DXF";
+const COMMENTS: &str = "If it is JSON, remove them: JSON has no comments";
 const TABLE: &str = "Convert it to Arrow, which is Feather of version 2: \
                      pyarrow.feather.write_feather";
 
@@ -38,13 +39,28 @@ const FIRST_BYTES: &[(&[u8], &str, &str)] = &[
         CONVERT,
     ),
     (b"\0\0\x27\x0A", "a shapefile", CONVERT),
-    (b"LINESTRING", "well-known text (WKT)", CONVERT),
-    (b"MULTILINESTRING", "well-known text (WKT)", CONVERT),
+    (b"\x1F\x8B", "a file packed twice with gzip", UNPACK),
+    (b"//", "a text with comments", COMMENTS),
+    (b"/*", "a text with comments", COMMENTS),
     (
         b"version https://git-lfs",
         "a pointer of Git LFS, not the file itself,",
         "Fetch the file: `git lfs pull`",
     ),
+];
+
+/// First words of well-known text.
+const WKT: &[&[u8]] = &[
+    b"SRID=",
+    b"POINT",
+    b"LINESTRING",
+    b"POLYGON",
+    b"MULTIPOINT",
+    b"MULTILINESTRING",
+    b"MULTIPOLYGON",
+    b"GEOMETRYCOLLECTION",
+    b"CIRCULARSTRING",
+    b"COMPOUNDCURVE",
 ];
 
 /// Root element, name and remedy of formats in XML.
@@ -96,11 +112,32 @@ pub(crate) fn other_format(bytes: &[u8]) -> Option<Problem> {
             roots.find(|(name, ..)| name.eq_ignore_ascii_case(root))
         }
         b'{' => return json_problem(text, problem),
+        b'[' if is_array_of_layouts(text) => {
+            let remedy = "Write each layout to a file of its own; commands take several files";
+            return Some(problem("an array of layouts", remedy));
+        }
+        _ if is_wkt(text) => return Some(problem("well-known text (WKT)", CONVERT)),
         _ => FIRST_BYTES
             .iter()
             .find(|(first, ..)| bytes.starts_with(first)),
     };
     known.map(|(_, what, remedy)| problem(what, remedy))
+}
+
+/// Returns whether a text begins with a geometry as well-known text, such as `LINESTRING Z (`.
+fn is_wkt(text: &[u8]) -> bool {
+    WKT.iter().any(|word| {
+        let (head, rest) = text.split_at(text.len().min(word.len()));
+        let is_mark = |byte: &u8| matches!(byte.to_ascii_uppercase(), b'Z' | b'M' | b' ');
+        let next = rest.iter().find(|byte| !is_mark(byte));
+        head.eq_ignore_ascii_case(word) && matches!(next, Some(b'(' | b'0'..=b'9'))
+    })
+}
+
+/// Returns whether the first object of an array has a key of LIF.
+fn is_array_of_layouts(text: &[u8]) -> bool {
+    let object = text[1..].trim_ascii_start();
+    object.starts_with(b"{") && root_keys(object).find_map(format_of_key) == Some(Format::Lif)
 }
 
 /// The problem of a JSON text whose root object has a key of another format, before any key of a

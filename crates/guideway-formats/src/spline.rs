@@ -58,8 +58,15 @@ impl Repair {
         };
         let repeats = |knots: &[f64]| knots.iter().take_while(|knot| **knot == knots[0]).count();
         let reversed: Vec<f64> = knots.iter().rev().copied().collect();
-        let repeats = repeats(knots).max(repeats(&reversed));
-        if repeats > degree {
+        let [leading, trailing] = [knots, &reversed].map(|knots| repeats(knots));
+        if count == points + degree + 3 && [leading, trailing] == [degree + 2; 2] {
+            return Some(Self {
+                degree,
+                knots: knots[1..count - 1].to_vec(),
+                mistake: "the writer repeats the first and the last knot once too often",
+            });
+        }
+        if leading.max(trailing) > degree {
             return None;
         }
         // Rhino and openNURBS count so.

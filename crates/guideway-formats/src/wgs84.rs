@@ -95,7 +95,7 @@ fn shorter_way(bounds: Bounds<f64>, positions: impl Iterator<Item = Point<f64>>)
 }
 
 /// Returns a longitude in the range from -180 to 180.
-fn wrapped(longitude_deg: f64) -> f64 {
+pub(crate) fn wrapped(longitude_deg: f64) -> f64 {
     if longitude_deg.abs() <= 180.0 {
         return longitude_deg;
     }

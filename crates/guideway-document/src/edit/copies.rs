@@ -2,7 +2,7 @@
 //! insert them.
 
 use guideway_layout::Layout;
-use guideway_scene::{Edit, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
+use guideway_scene::{Edit, EditError, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
 use guideway_spline::Affine;
 
 use super::curves::mapped_runs;
@@ -166,6 +166,27 @@ impl<'a> Copies<'a> {
 }
 
 impl Document {
+    /// Checks that copied elements exist and that the copies keep the limits. A journal may ask for
+    /// anything.
+    pub(super) fn check_copies(&self, of: &CopiesOf) -> Result<(), EditError> {
+        let limits = |what, count: u64, limit: u64| match count > limit {
+            true => Err(EditError::TooManyCopies { what, count, limit }),
+            false => Ok(()),
+        };
+        limits("copies", of.count.into(), CopiesOf::MAX_COUNT.into())?;
+        self.check_exist(&of.elements)?;
+        let layout = self.layout();
+        let points = |row: u32| {
+            let runs = layout.paths.get(row as usize).runs();
+            runs.map(|run| run.len() as u64).sum::<u64>()
+        };
+        let copied = of.elements.paths.iter().map(points).sum::<u64>() + of.elements.len();
+        let rows = Table::ALL.map(|table| table.row_count(layout) as u64);
+        let present = layout.paths.geometry().point_count() as u64 + rows.iter().sum::<u64>();
+        let size = present.saturating_add(copied.saturating_mul(of.count.into()));
+        limits("control points and elements", size, CopiesOf::MAX_SIZE)
+    }
+
     /// The new rows of copies.
     pub(super) fn copies_of(&self, of: &CopiesOf) -> Copies<'_> {
         let mut copies = Copies::into(&self.scene);

@@ -31,8 +31,8 @@ impl Document {
     /// copied. Copies keep properties and style; their names are numbered. Returns their rows.
     ///
     /// # Errors
-    /// When an element does not exist, or a copy would exceed the coordinate limit; the
-    /// document is unchanged.
+    /// When an element does not exist, a copy would exceed the coordinate limit, or the copies are
+    /// more than [`CopiesOf::MAX_COUNT`] or than a document takes; the document is unchanged.
     pub fn copy(
         &mut self,
         elements: &Elements,
@@ -44,15 +44,16 @@ impl Document {
         if all.is_empty() || count == 0 {
             return Ok(Elements::default());
         }
-        let rows = Table::ALL.map(|of| {
-            let first = of.row_count(self.layout()) as u32;
-            first..first + all.rows(of).len() as u32 * count
-        });
         let copies = CopiesOf {
             elements: Arc::new(all),
             count,
             step_m,
         };
+        self.check_copies(&copies)?;
+        let rows = Table::ALL.map(|of| {
+            let first = of.row_count(self.layout()) as u32;
+            first..first + copies.elements.rows(of).len() as u32 * count
+        });
         self.perform("copy", vec![Change::Copy(copies)])?;
         let [paths, nodes, stations] = rows.map(|rows| rows.collect::<PathSet>());
         self.selection = Arc::new(Elements::of_paths(&paths));

@@ -105,28 +105,29 @@ impl Document {
     /// Applies all changes or none. Returns the inverse changes, in the order to apply them.
     fn apply(&mut self, changes: &[Change]) -> Result<Vec<Change>, EditError> {
         self.revision += 1;
-        for change in changes {
-            if let Change::Copy(copies) = change {
-                // A journal may name rows that do not exist.
-                self.check_exist(&copies.elements)?;
-            }
-        }
         let mut inverse = Vec::new();
-        for change in changes {
-            for edit in self.edits_of(change) {
-                match self.edit_scene(&edit) {
-                    Ok(undo) => inverse.push(undo),
-                    Err(error) => {
-                        for undo in inverse.iter().rev() {
-                            self.edit_scene(undo)?;
-                        }
-                        return Err(error);
-                    }
-                }
+        let applied = changes
+            .iter()
+            .try_for_each(|change| self.apply_change(change, &mut inverse));
+        if let Err(error) = applied {
+            for undo in inverse.iter().rev() {
+                self.edit_scene(undo)?;
             }
+            return Err(error);
         }
         self.deselect_hidden();
         Ok(inverse.into_iter().rev().map(Change::Scene).collect())
+    }
+
+    /// Applies a change, and appends the inverse of each of its edits that was performed.
+    fn apply_change(&mut self, change: &Change, inverse: &mut Vec<Edit>) -> Result<(), EditError> {
+        if let Change::Copy(copies) = change {
+            self.check_copies(copies)?;
+        }
+        for edit in self.edits_of(change) {
+            inverse.push(self.edit_scene(&edit)?);
+        }
+        Ok(())
     }
 
     fn row_counts(&self) -> [usize; 3] {

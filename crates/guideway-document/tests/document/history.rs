@@ -1,8 +1,10 @@
 //! Undo, redo and saving; rejected edits; the index and the layout under edits.
 
-use guideway_document::{Change, Index, JournalEntry, PointRef, replay};
+use std::sync::Arc;
+
+use guideway_document::{Change, CopiesOf, Elements, Index, JournalEntry, PointRef, replay};
 use guideway_layout::{Layout, Value};
-use guideway_scene::{Edit, LayoutCopy};
+use guideway_scene::{Edit, EditError, LayoutCopy};
 use guideway_spline::{Affine, Bounds};
 
 use crate::site::{document, ends, is_near, p, select};
@@ -167,4 +169,35 @@ fn the_journal_of_copies_is_a_command() {
     let (few, many) = (bytes_of(1), bytes_of(50));
     assert_eq!(few, many, "bytes of 1 and of 50 copies");
     assert!(few < 2_000, "{few} bytes for 100 paths with their nodes");
+}
+
+/// A few bytes of a journal ask for any number of copies, and for copies of copies.
+#[test]
+fn copies_keep_limits_in_journals_too() {
+    let elements = Elements::of_paths(0..100);
+    let copies = |elements: &Elements, count: u32| {
+        vec![Change::Copy(CopiesOf {
+            elements: Arc::new(elements.clone()),
+            count,
+            step_m: p(0.0, 1.0),
+        })]
+    };
+    let mut document = document(100);
+    for count in [CopiesOf::MAX_COUNT + 1, u32::MAX] {
+        let refused = document.copy(&elements, count, p(0.0, 1.0)).unwrap_err();
+        let is_count = matches!(refused, EditError::TooManyCopies { what: "copies", .. });
+        assert!(is_count, "{refused}");
+        assert!(document.perform("copy", copies(&elements, count)).is_err());
+    }
+    let four = document.copy(&elements, 30, p(0.0, 200.0)).unwrap();
+    let refused = document.perform("copy", copies(&four, CopiesOf::MAX_COUNT));
+    let refused = refused.unwrap_err().to_string();
+    assert!(
+        refused.contains("exceed the limit of 134217728"),
+        "{refused}"
+    );
+    let again = [copies(&elements, 2), copies(&elements, u32::MAX)].map(JournalEntry::Do);
+    let journal: Vec<u8> = again.iter().flat_map(JournalEntry::to_record).collect();
+    assert_eq!(replay(&journal, &mut document, |_| true).entries, 1);
+    assert_eq!(document.to_layout().paths.len(), 100 + 3_000 + 200);
 }

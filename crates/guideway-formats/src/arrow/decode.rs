@@ -3,16 +3,18 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
-use arrow_array::{ArrayRef, RecordBatch};
+use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchOptions, make_array};
 use arrow_ipc::reader::{read_dictionary, read_record_batch};
 use arrow_ipc::{MessageHeader, RecordBatch as IpcBatch};
-use arrow_schema::{ArrowError, SchemaRef};
+use arrow_schema::{ArrowError, DataType, Schema, SchemaRef};
 
 use super::budget::Budget;
 use super::catch_decode_panic::catch_decode_panic;
 use super::container::Message;
 use super::control_polygons::ControlPolygons;
+use super::lossy_texts::{Within, to_texts, with_bytes};
 use super::message_body::{ALIGNMENT, BodyPool};
 use super::problems::damaged;
 use super::schema::coordinate_buffer;
@@ -29,12 +31,16 @@ pub(super) struct Decoder<'a> {
     points: usize,
     /// Index of the buffer with their coordinates, if the schema fixes it.
     coordinates: Option<usize>,
+    /// Number of texts of dictionaries that were not UTF-8, by column.
+    replaced: Vec<(String, u64)>,
 }
 
 /// A record batch and its control polygons, whose coordinates may be deferred.
 pub(super) struct Decoded {
     pub(super) batch: RecordBatch,
     pub(super) polygons: ControlPolygons,
+    /// Number of texts that were not UTF-8, by column.
+    pub(super) replaced: Vec<(String, u64)>,
 }
 
 impl<'a> Decoder<'a> {
@@ -47,6 +53,7 @@ impl<'a> Decoder<'a> {
             schema,
             dictionaries: HashMap::new(),
             bodies: BodyPool::default(),
+            replaced: Vec::new(),
         }
     }
 
@@ -90,15 +97,16 @@ impl<'a> Decoder<'a> {
                     let known = self.dictionaries.get(&dictionary.id());
                     budget.charge(known.map_or(0, |d| d.get_buffer_memory_size()) as u64)?;
                 }
+                let bytes = body.bytes();
                 let dictionaries = &mut self.dictionaries;
-                read_dictionary(
-                    body.bytes(),
-                    dictionary,
-                    &self.schema,
-                    dictionaries,
-                    &version,
-                )
-                .map_err(failed)?;
+                let read = read_dictionary(bytes, dictionary, &self.schema, dictionaries, &version);
+                if let Err(error) = read {
+                    let schema = with_bytes(&self.schema, Within::Dictionaries);
+                    read_dictionary(bytes, dictionary, &schema, dictionaries, &version)
+                        .and_then(|()| values_to_texts(dictionary.id(), &self.schema, dictionaries))
+                        .map(|found| self.replaced.extend(found))
+                        .map_err(|_| failed(error))?;
+                }
                 Ok(None)
             }
             MessageHeader::RecordBatch => {
@@ -108,13 +116,24 @@ impl<'a> Decoder<'a> {
                 let deferred = self.deferred(&batch, at.len());
                 let body = self.bodies.read(self.input, at, deferred)?;
                 check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
-                let (bytes, schema) = (body.bytes(), self.schema.clone());
-                let batch =
+                let bytes = body.bytes();
+                let read = |schema: SchemaRef| {
                     read_record_batch(bytes, batch, schema, &self.dictionaries, None, &version)
-                        .map_err(failed)?;
+                };
+                let mut replaced = std::mem::take(&mut self.replaced);
+                let batch = match read(self.schema.clone()) {
+                    Ok(batch) => batch,
+                    Err(error) => read(with_bytes(&self.schema, Within::Batches).into())
+                        .and_then(|batch| batch_to_texts(&batch, &self.schema, &mut replaced))
+                        .map_err(|_| failed(error))?,
+                };
                 let polygons =
                     ControlPolygons::from_column(batch.column(self.points), Some(&body), budget)?;
-                Ok(Some(Decoded { batch, polygons }))
+                Ok(Some(Decoded {
+                    batch,
+                    polygons,
+                    replaced,
+                }))
             }
             MessageHeader::NONE => Ok(None),
             other => Err(damaged(
@@ -141,6 +160,49 @@ impl<'a> Decoder<'a> {
         });
         range.unwrap_or_default()
     }
+}
+
+/// Makes texts of the bytes of a dictionary. Returns the column and the number of its texts that
+/// are not UTF-8.
+fn values_to_texts(
+    id: i64,
+    schema: &Schema,
+    dictionaries: &mut HashMap<i64, ArrayRef>,
+) -> Result<Option<(String, u64)>, ArrowError> {
+    #[expect(
+        deprecated,
+        reason = "the library names dictionaries by numbers, and no other way"
+    )]
+    let fields = schema.fields_with_dict_id(id);
+    let (Some(field), Some(values)) = (fields.first(), dictionaries.get_mut(&id)) else {
+        return Ok(None);
+    };
+    let DataType::Dictionary(_, to) = field.data_type() else {
+        return Ok(None);
+    };
+    let mut count = 0;
+    *values = make_array(to_texts(values.to_data(), to, &mut count)?);
+    Ok(Some((field.name().clone(), count)))
+}
+
+/// Makes texts of the bytes in a batch. Adds the number of texts that are not UTF-8 per column.
+fn batch_to_texts(
+    batch: &RecordBatch,
+    schema: &SchemaRef,
+    replaced: &mut Vec<(String, u64)>,
+) -> Result<RecordBatch, ArrowError> {
+    let columns = batch.columns().iter().zip(schema.fields());
+    let columns = columns.map(|(column, field)| {
+        let mut count = 0;
+        let texts = to_texts(column.to_data(), field.data_type(), &mut count)?;
+        if count > 0 {
+            replaced.push((field.name().clone(), count));
+        }
+        Ok(make_array(texts))
+    });
+    let columns = columns.collect::<Result<Vec<ArrayRef>, ArrowError>>()?;
+    let options = RecordBatchOptions::new().with_row_count(Some(batch.num_rows()));
+    RecordBatch::try_new_with_options(Arc::clone(schema), columns, &options)
 }
 
 /// Fault of the header of a batch.

@@ -149,7 +149,8 @@ impl<'a> TableReader<'a> {
     }
 
     /// Reserves memory as if all batches were like the first, bounded by the size of the file.
-    fn reserve(&mut self, Decoded { batch, polygons }: &Decoded, batches: usize) {
+    fn reserve(&mut self, first: &Decoded, batches: usize) {
+        let (batch, polygons) = (&first.batch, &first.polygons);
         let file_bytes = self.input.len();
         let point_bytes = polygons.coordinates.point_bytes();
         let points = polygons.range_of_rows(0..polygons.len()).len();
@@ -164,7 +165,16 @@ impl<'a> TableReader<'a> {
 
     /// Assembles the curves of a batch, which frees their buffers, while the columns take previous
     /// batches.
-    pub(super) fn add(&mut self, Decoded { batch, polygons }: &Decoded) -> Result<(), Problem> {
+    pub(super) fn add(&mut self, decoded: &Decoded) -> Result<(), Problem> {
+        let (batch, polygons) = (&decoded.batch, &decoded.polygons);
+        for (column, count) in &decoded.replaced {
+            self.diagnostics.push(
+                Code::WrongType,
+                || Place::element(format!("column {column}")),
+                || format!("{count} texts are not UTF-8"),
+                "Their other bytes are replaced by \u{FFFD}; write the texts as UTF-8",
+            );
+        }
         let columns = self.reading.columns;
         let first_row = self.assembler.rows();
         let kinds = RowKinds::of(batch, columns)?;

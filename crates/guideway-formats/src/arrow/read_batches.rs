@@ -61,7 +61,11 @@ fn read_table(source: Source<'_>, batches: impl RecordBatchReader) -> Result<Lay
         let polygons = catch_decode_panic(&place, || {
             ControlPolygons::from_column(batch.column(columns.control_points), None, &budget)
         })?;
-        reader.add(&Decoded { batch, polygons })?;
+        reader.add(&Decoded {
+            batch,
+            polygons,
+            replaced: Vec::new(),
+        })?;
     }
     reader.into_layout(source.name)
 }

@@ -32,6 +32,13 @@ const DOS_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢�
 /// Code page 850 of DOS.
 const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐\
     └┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{ad}±‗¾¶§÷¸°¨·¹³²■\u{a0}";
+/// Code page 852 of DOS.
+const DOS_852: &str = "ÇüéâäůćçłëŐőîŹÄĆÉĹĺôöĽľŚśÖÜŤťŁ×čáíóúĄąŽžĘę¬źČş«»░▒▓│┤ÁÂĚŞ╣║╗╝Żż┐\
+    └┴┬├─┼Ăă╚╔╩╦╠═╬¤đĐĎËďŇÍÎě┘┌█▄ŢŮ▀ÓßÔŃńňŠšŔÚŕŰýÝţ´\u{ad}˝˛ˇ˘§÷¸°¨˙űŘř■\u{a0}";
+/// Code page 857 of DOS.
+const DOS_857: &str = "ÇüéâäàåçêëèïîıÄÅÉæÆôöòûùİÖÜø£ØŞşáíóúñÑĞğ¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐\
+    └┴┬├─┼ãÃ╚╔╩╦╠═╬¤ºªÊËÈ\u{fffd}ÍÎÏ\
+    ┘┌█▄¦Ì▀ÓßÔÒõÕµ\u{fffd}×ÚÛÙìÿ¯´\u{ad}±\u{fffd}¾¶§÷¸°¨·¹³²■\u{a0}";
 
 impl Default for TextDecoder {
     fn default() -> Self {
@@ -100,13 +107,13 @@ fn code_page(name: &[u8]) -> Option<CodePage> {
         ("BIG5", _) | (_, "950") => BIG5,
         ("KSC5601", _) | (_, "949") => EUC_KR,
         ("MACINTOSH" | "MAC-ROMAN", _) => MACINTOSH,
-        ("ASCII" | "US_ASCII", _) | (_, "1252" | "8859-1" | "8859-9") => WINDOWS_1252,
+        ("ASCII" | "US_ASCII", _) | (_, "1252" | "8859-1") => WINDOWS_1252,
         (_, "874") => WINDOWS_874,
         (_, "932") => SHIFT_JIS,
         (_, "1250") => WINDOWS_1250,
         (_, "1251") => WINDOWS_1251,
         (_, "1253") => WINDOWS_1253,
-        (_, "1254") => WINDOWS_1254,
+        (_, "1254" | "8859-9") => WINDOWS_1254,
         (_, "1255") => WINDOWS_1255,
         (_, "1256") => WINDOWS_1256,
         (_, "1257") => WINDOWS_1257,
@@ -121,6 +128,8 @@ fn code_page(name: &[u8]) -> Option<CodePage> {
         (_, "8859-8") => ISO_8859_8,
         (_, "437") => return Some(CodePage::Table(DOS_437)),
         (_, "850") => return Some(CodePage::Table(DOS_850)),
+        (_, "852") => return Some(CodePage::Table(DOS_852)),
+        (_, "857") => return Some(CodePage::Table(DOS_857)),
         _ => return None,
     }))
 }
@@ -146,12 +155,17 @@ fn unescape(text: &str) -> String {
     decoded + rest
 }
 
-/// Returns the letter of an escape such as `\U+00E4` at the start of a text, and the bytes that it
-/// takes.
+/// Returns the letter of an escape such as `\U+00E4` at the start of a text, or of two that are a
+/// surrogate pair, and the bytes that it takes.
 fn unicode_escape(text: &str) -> Option<(String, usize)> {
-    let digits = text.strip_prefix("\\U+")?.get(..4)?;
-    let letter = char::from_u32(u32::from_str_radix(digits, 16).ok()?)?;
-    Some((letter.to_string(), 7))
+    const LENGTH: usize = 7;
+    let unit = |at: usize| {
+        let digits = text.get(at..)?.strip_prefix("\\U+")?.get(..4)?;
+        u16::from_str_radix(digits, 16).ok()
+    };
+    let units = [unit(0)?, unit(LENGTH).unwrap_or_default()];
+    let letter = char::decode_utf16(units).next()?.ok()?;
+    Some((letter.to_string(), LENGTH * letter.len_utf16()))
 }
 
 /// Returns the letter of an escape such as `\M+5BBF5` at the start of a text, and the bytes that it
@@ -191,7 +205,10 @@ mod tests {
             ("AC1009", "dos850", b"W\x84nde", "Wände"),
             ("AC1009", "DOS437", b"\xE1\x81", "ßü"),
             ("AC1009", "dos866", b"\xAF\xE3\xE2\xEC", "путь"),
+            ("AC1009", "DOS852", b"Dr\xA0ha \xA7", "Dráha ž"),
+            ("AC1009", "dos857", b"yol\xA7\x8D", "yolğı"),
             ("AC1015", "ISO8859-2", b"\xB6", "ś"),
+            ("AC1015", "iso8859-9", b"yol\xF0\xFD", "yolğı"),
             ("AC1015", "ANSI_1252", b"W\xE4nde \x80", "Wände €"),
             // Another program's UTF-8 under a code page, and the UTF-8 of release 2007.
             ("AC1015", "ANSI_936", "货架".as_bytes(), "货架"),
@@ -215,6 +232,7 @@ mod tests {
         assert_eq!(decode("Wände".as_bytes()), "Wände");
         assert_eq!(decode(br"W\U+00E4nde\U+"), r"Wände\U+");
         assert_eq!(decode(br"\U+ZZZZ\U+D800"), r"\U+ZZZZ\U+D800");
+        assert_eq!(decode(br"\U+D83D\U+DE9A \U+D83D"), r"🚚 \U+D83D");
         assert_eq!(decode(br"\M+5BBF5\M+5BCDC"), "货架");
         assert_eq!(decode(br"a\M+192CA\b"), r"a通\b");
         assert_eq!(decode(br"\M+9BBF5\M+5BB\M+5\"), r"\M+9BBF5\M+5BB\M+5\");

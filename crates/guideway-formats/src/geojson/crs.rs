@@ -19,8 +19,15 @@ pub(super) enum System {
 
 impl System {
     /// Returns the system of a name such as `EPSG:4258`, `urn:ogc:def:crs:OGC:1.3:CRS84` or
-    /// `http://www.opengis.net/def/crs/EPSG/0/3857`.
+    /// `http://www.opengis.net/def/crs/EPSG/0/3857`; of a compound one, such as `EPSG:4326+5773`,
+    /// the horizontal part.
     pub(super) fn of_name(name: &str) -> Self {
+        let mut parts = name.split(['+', ',']).map(Self::of_single_name);
+        let known = parts.find(|system| *system != Self::Unknown);
+        known.unwrap_or(Self::Unknown)
+    }
+
+    fn of_single_name(name: &str) -> Self {
         let name = name.trim();
         let last = name.rsplit([':', '/', '#']).next().unwrap_or_default();
         // Longitude and latitude of WGS 84, NAD 83 and NAD 27.
@@ -88,6 +95,8 @@ mod tests {
             "urn:ogc:def:crs:OGC:1.3:CRS84",
             "urn:ogc:def:crs:OGC::CRS83",
             "crs84",
+            "EPSG:4326+5773",
+            "urn:ogc:def:crs,crs:EPSG::4326,crs:EPSG::5773",
         ] {
             assert_eq!(System::of_name(name), System::Degrees(1.0), "{name}");
         }

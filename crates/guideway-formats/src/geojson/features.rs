@@ -10,7 +10,7 @@ use super::crs::System;
 use super::extension::Extension;
 use super::feature_source::Source;
 use super::mapper::Mapper;
-use super::model::{Feature, Geometry, Member, Root};
+use super::model::{Crs, Feature, Geometry, Member, Root};
 use super::names;
 use super::properties::{Properties, Property};
 use super::unit::{Statement, Unit};
@@ -71,11 +71,18 @@ impl Mapper<'_> {
         Ok(self.finish(features.len()))
     }
 
+    /// Returns the name or the code of the coordinate reference system: `coordRefSys` of JSON-FG,
+    /// or `crs` of 2008, which some applications write as a text.
     fn crs(&mut self, root: &Root<'_>) -> Result<Option<String>, ReadError> {
         let at: PlaceFn<'_> = &|| Place::element("crs");
-        self.builder.check_type(&root.crs, at, "an object");
-        let properties = root.crs.get().and_then(|crs| crs.properties.get());
-        let Some(properties) = properties else {
+        let found = root.coord_ref_sys.get().or(root.crs.get()).copied();
+        if let Some(name) = found.and_then(Property::text) {
+            self.builder.check_text(&name)?;
+            return Ok(Some(name.into_owned()));
+        }
+        let crs: Field<Crs<'_>> = found.and_then(Property::parse).unwrap_or_default();
+        self.builder.check_type(&crs, at, "an object");
+        let Some(properties) = crs.get().and_then(|crs| crs.properties.get()) else {
             return Ok(None);
         };
         if let Some(code) = properties.code.get().copied().and_then(Property::id) {

@@ -14,7 +14,8 @@ pub(super) type List<T> = Vec<Field<T>>;
 record! {
     /// The root object: a collection, one feature, or one geometry.
     Root<'a> {
-        crs: Box<Crs<'a>> = "crs",
+        crs: Property<'a> = "crs",
+        coord_ref_sys: Property<'a> = "coordRefSys",
         guideway: Box<Member<'a>> = "guideway",
         features: List<Feature<'a>> = "features",
         id: Property<'a> = "id",

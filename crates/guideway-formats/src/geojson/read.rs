@@ -54,8 +54,9 @@ fn joined<'t>(roots: Vec<Root<'t>>) -> Root<'t> {
     let mut features = first.take_features();
     for mut next in roots {
         features.extend(next.take_features());
-        if first.crs.is_absent() {
+        if first.crs.is_absent() && first.coord_ref_sys.is_absent() {
             first.crs = next.crs;
+            first.coord_ref_sys = next.coord_ref_sys;
         }
         if first.guideway.is_absent() {
             first.guideway = next.guideway;

@@ -6,12 +6,20 @@ use guideway_spline::{Bounds, Point};
 
 use super::crs::System;
 use crate::builder::Builder;
-use crate::wgs84::{LocalProjection, from_mercator, is_lon_lat};
+use crate::wgs84::{LocalProjection, from_mercator, is_lon_lat, wrapped};
 
 /// Largest distance from the origin of Mercator's projection, which lies in the sea, at which
 /// positions are taken for those of a local plane: applications without a system of their own write
 /// the code of Web Mercator.
 const LOCAL_PLANE_M: f64 = 10_000.0;
+
+/// Largest longitude where a file states degrees. Some applications count from 0 to 360 or go on
+/// beyond 180, so that lines across the antimeridian stay connected; others do both.
+const WIDEST_DEG: f64 = 540.0;
+
+/// Largest distance from the center of a site, up to which longitudes beyond 180 are taken for
+/// degrees: others are meters under a wrong system.
+const SITE_M: f64 = 100_000.0;
 
 /// Unit of the positions of a file.
 pub(super) enum Unit {
@@ -44,13 +52,21 @@ impl Unit {
             return Self::Meters;
         };
         let system = statement.crs.map(System::of_name);
-        let on_earth = |system: System| {
-            let degrees = |p: Point<f64>| to_degrees(system, p).filter(|&p| is_lon_lat(p));
+        let on_earth = |system: System, most_deg: f64| {
+            let degrees = |p: Point<f64>| {
+                let p = to_degrees(system, p).filter(|p| p.x.abs() <= most_deg)?;
+                let p = Point::new(wrapped(p.x), p.y);
+                is_lon_lat(p).then_some(p)
+            };
             let corners = [bounds.min, bounds.max];
             if !corners.iter().all(|&corner| degrees(corner).is_some()) {
                 return None;
             }
-            LocalProjection::centered_on(|| positions().filter_map(degrees))
+            let projection = LocalProjection::centered_on(|| positions().filter_map(degrees))?;
+            let is_beyond = |corner| to_degrees(system, corner).is_some_and(|p| p.x.abs() > 180.0);
+            let is_near = |p| projection.to_meters(p).norm() <= SITE_M;
+            let is_site = || positions().filter_map(degrees).all(is_near);
+            (!corners.into_iter().any(is_beyond) || is_site()).then_some(projection)
         };
         let far = bounds.min.x.abs().max(bounds.max.x.abs());
         let far = far.max(bounds.min.y.abs()).max(bounds.max.y.abs());
@@ -62,7 +78,9 @@ impl Unit {
                     .to_owned(),
                 Self::Meters,
             ),
-            Some(system @ (System::Degrees(_) | System::Mercator(_))) => match on_earth(system) {
+            Some(system @ (System::Degrees(_) | System::Mercator(_))) => match on_earth(
+                system, WIDEST_DEG,
+            ) {
                 Some(projection) => return Self::Earth(system, projection),
                 None => (
                     "some positions are outside the range of the `crs`: they are read as meters"
@@ -79,7 +97,7 @@ impl Unit {
                     Self::Meters,
                 )
             }
-            None => match on_earth(System::Degrees(1.0)) {
+            None => match on_earth(System::Degrees(1.0), 180.0) {
                 Some(projection) => (
                     "the file names no `crs`, and all positions are within 180 and 90: they are \
                      read as degrees"

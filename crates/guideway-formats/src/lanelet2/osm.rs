@@ -83,7 +83,8 @@ pub(super) fn positions<'d>(
             builder.report(Code::DuplicateId, at, message, remedy);
         }
     }
-    if !is_local && projection.is_some() {
+    if let Some(projection) = projection.filter(|_| !is_local) {
+        builder.layout.geo_origin = Some(projection.origin());
         let at: PlaceFn<'_> = &|| Place::element("the positions");
         let message = || {
             "longitude and latitude are projected to meters about the center of the map, which is \

@@ -102,6 +102,7 @@ impl<'d, 't> LaneSection<'d, 't> {
         let section = Self { start_m, lanes };
         section.check_ids(reader);
         section.check_borders(reader);
+        section.check_widths_against_borders(reader);
         Ok(section)
     }
 
@@ -136,6 +137,32 @@ impl<'d, 't> LaneSection<'d, 't> {
             if !is_expected {
                 let message = || "the sign of its border is that of the other side".to_owned();
                 let remedy = "It is drawn on the side of its `id`; correct the border or the `id`";
+                reader.report(Code::Implausible, lane.node, message, remedy);
+            }
+        }
+    }
+
+    /// Reports lanes whose border is not where their widths end, at the start of the section.
+    fn check_widths_against_borders(&self, reader: &mut DocumentReader<'_, 'd, 't>) {
+        /// Files round to centimeters.
+        const TOLERANCE_M: f64 = 0.02;
+        let (mut outer_m, mut side) = (0.0, 0.0);
+        for lane in &self.lanes {
+            let at_start = |records: &Piecewise| records.between([self.start_m; 2]).a;
+            if lane.side() != side {
+                (outer_m, side) = (0.0, lane.side());
+            }
+            let border_m = at_start(&lane.borders).abs();
+            if lane.widths.is_empty() {
+                outer_m = border_m;
+                continue;
+            }
+            outer_m += at_start(&lane.widths);
+            if !lane.borders.is_empty() && (border_m - outer_m).abs() > TOLERANCE_M {
+                let message = || {
+                    format!("its border is {border_m} m from lane 0, its widths end at {outer_m} m")
+                };
+                let remedy = "Its widths count; remove the border or correct one of both";
                 reader.report(Code::Implausible, lane.node, message, remedy);
             }
         }

@@ -11,6 +11,8 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::limits::MAX_ATTRIBUTES;
+
 /// Public identifiers of the definitions of SVG 1.0 and 1.1 begin with this text.
 const SVG_DEFINITION: &[u8] = b"-//W3C//DTD SVG 1.";
 
@@ -90,7 +92,10 @@ impl<'t> Definitions<'t> {
                     let all = definitions.defaults.entry(slice(element)).or_default();
                     for (name, value) in defaults {
                         let (name, value) = (slice(name), slice(value));
-                        if !all.iter().any(|(known, _)| *known == name) {
+                        // An element with more attributes is refused, so that further ones are not
+                        // compared with all.
+                        let is_full = all.len() as u64 > MAX_ATTRIBUTES;
+                        if !is_full && !all.iter().any(|(known, _)| *known == name) {
                             all.push((name, value));
                         }
                     }

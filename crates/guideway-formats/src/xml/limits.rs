@@ -11,7 +11,7 @@ use crate::text::ElementCounter;
 
 /// Attributes per element. The parser compares each one with every other; no format needs half as
 /// many.
-const MAX_ATTRIBUTES: u64 = 256;
+pub(super) const MAX_ATTRIBUTES: u64 = 256;
 
 /// Namespace declarations per file. The parser copies them for every level; drawing programs write
 /// some on a few elements.

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use arrow_array::types::{Float64Type, Int32Type, UInt8Type};
 use arrow_array::{
-    Array, ArrayRef, DictionaryArray, FixedSizeListArray, Float64Array, Int8Array, ListArray,
-    StructArray, TimestampMicrosecondArray, TimestampSecondArray,
+    Array, ArrayRef, DictionaryArray, FixedSizeListArray, Float64Array, Int8Array,
+    LargeStringArray, ListArray, StringArray, StringViewArray, StructArray,
+    TimestampMicrosecondArray, TimestampSecondArray,
 };
 use arrow_buffer::OffsetBuffer;
 use arrow_schema::{DataType, Field};
@@ -29,6 +30,66 @@ fn text(layout: &Layout, row: usize) -> Option<String> {
         Some(Value::Text(text)) => Some(text.to_owned()),
         None => None,
         other => panic!("{other:?}"),
+    }
+}
+
+/// The library refuses a batch for one byte of one text.
+#[test]
+fn texts_that_are_not_utf8_do_not_refuse_a_file() {
+    let texts = StringArray::from(vec!["W?nde", "ok"]);
+    let columns: [(ArrayRef, &str, u64); 6] = [
+        (Arc::new(texts.clone()), "W\u{FFFD}nde", 1),
+        (
+            Arc::new(LargeStringArray::from(vec!["W?nde", "ok"])),
+            "W\u{FFFD}nde",
+            1,
+        ),
+        (
+            Arc::new(StringViewArray::from(vec!["W?nde", "ok"])),
+            "W\u{FFFD}nde",
+            1,
+        ),
+        (
+            Arc::new(DictionaryArray::<Int32Type>::from_iter(["W?nde", "ok"])),
+            "W\u{FFFD}nde",
+            1,
+        ),
+        (
+            Arc::new(ListArray::new(
+                Arc::new(Field::new("item", DataType::Utf8, true)),
+                OffsetBuffer::from_lengths([1, 1]),
+                Arc::new(texts.clone()),
+                None,
+            )),
+            "[W\u{FFFD}nde]",
+            1,
+        ),
+        (
+            Arc::new(StructArray::from(vec![(
+                Arc::new(Field::new("k", DataType::Utf8, true)),
+                Arc::new(texts) as ArrayRef,
+            )])),
+            "{k: W\u{FFFD}nde}",
+            1,
+        ),
+    ];
+    for (column, expected, count) in columns {
+        let kind = column.data_type().to_string();
+        let ids: ArrayRef = Arc::new(StringArray::from(vec!["x", "y"]));
+        let points: ArrayRef = Arc::new(polygons(2));
+        let table = batch(vec![("id", ids), ("a", column), ("control_points", points)]);
+        let mut bytes = file(&[table], None);
+        let at = bytes.windows(5).position(|part| part == b"W?nde").unwrap();
+        bytes[at + 1] = 0xE4;
+        let layout = read(&bytes);
+        assert_eq!(crate::arrow_tables::ids(&layout), ["x", "y"], "{kind}");
+        assert_eq!(text(&layout, 0).as_deref(), Some(expected), "{kind}");
+        let message = format!("{count} texts are not UTF-8");
+        let mut found = layout.diagnostics.iter();
+        assert!(
+            found.any(|d| d.message == message && d.place.element == "column a"),
+            "{kind}"
+        );
     }
 }
 

@@ -54,6 +54,47 @@ fn geographic_systems_are_degrees() {
     );
 }
 
+/// Longitudes from 0 to 360, and those that go on beyond 180: with a system they are degrees.
+#[test]
+fn longitudes_may_go_beyond_180() {
+    for [from, to] in [
+        [359.9995, 360.0005],
+        [0.0005, 359.9995],
+        [179.9995, 180.0005],
+    ] {
+        let layout = line_in(r#""name": "EPSG:4326""#, [[from, 50.0], [to, 50.0]]);
+        let found = length(&layout);
+        assert!((found - 71.6958).abs() < 1e-3, "{from} to {to}: {found}");
+        assert_eq!(codes(&layout), []);
+    }
+    // Degrees of a file that states none, and of no earth.
+    for (crs, to) in [
+        (r#""name": 5"#, 180.0005),
+        (r#""name": "EPSG:4326""#, 541.0),
+    ] {
+        let layout = line_in(crs, [[179.9995, 50.0], [to, 50.0]]);
+        assert!(codes(&layout).contains(&Code::AssumedUnit), "{crs}");
+    }
+}
+
+/// JSON-FG, a text in place of an object, compounds of a horizontal and a vertical system.
+#[test]
+fn systems_are_stated_in_other_ways() {
+    for stated in [
+        r#""crs": "EPSG:3857""#,
+        r#""coordRefSys": "http://www.opengis.net/def/crs/EPSG/0/3857""#,
+        r#""crs": {"type": "name", "properties": {"name": "EPSG:3857+5773"}}"#,
+    ] {
+        let layout = read(&format!(
+            r#"{{"type": "FeatureCollection", {stated}, "features": [{{"type": "Feature",
+            "id": "e", "properties": {{}}, "geometry": {{"type": "LineString", "coordinates":
+            [[1224514.4, 6621293.72274], [1225514.4, 6621293.72274]]}}}}]}}"#
+        ));
+        assert!((length(&layout) - 630.5965).abs() < 1e-3, "{stated}");
+        assert_eq!(codes(&layout), [], "{stated}");
+    }
+}
+
 #[test]
 fn foot_systems_are_feet() {
     let length = |crs| length(&line_in(crs, [[1e6, 2e5], [1e6 + 1000.0, 2e5]]));
@@ -120,7 +161,20 @@ fn several_files_in_degrees_lie_as_on_earth() {
     };
     let west = line("CRS84", "west", [11.0, 50.0], [11.001, 50.0]);
     let east = line("EPSG:4258", "east", [11.001, 50.0], [11.002, 50.0]);
-    let merged = merge(vec![west, east]);
+    let node = |id: u32, lon: f64| format!("<node id='{id}' lat='50' lon='{lon}'/>");
+    let map = read(&format!(
+        "<osm version='0.6'>{}{}<way id='map'><nd ref='1'/><nd ref='2'/></way></osm>",
+        node(1, 11.0005),
+        node(2, 11.001),
+    ));
+    let merged = merge(vec![west, east, map]);
+    // Half a line from its start, in a map of another format.
+    let (middle, end) = (ends(&merged, "west"), ends(&merged, "map"));
+    let half = middle.0.lerp(middle.1, 0.5);
+    assert!(
+        half.distance(end.0) < 1e-6 && middle.1.distance(end.1) < 1e-6,
+        "{end:?}"
+    );
     let (start, middle) = ends(&merged, "west");
     let (again, end) = ends(&merged, "east");
     assert!(middle.distance(again) < 1e-6, "{middle:?} {again:?}");

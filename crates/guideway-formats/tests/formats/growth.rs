@@ -86,6 +86,10 @@ fn entities_and_namespaces_are_counted() {
         let names: String = (0..size).map(|i| format!(" a{i} CDATA 'x'")).collect();
         document(&format!("<!ATTLIST g{names}>"), &"<g/>".repeat(size))
     });
+    assert_linear("default attributes of one element", 3000, |size| {
+        let names: String = (0..size).map(|i| format!(" a{i} CDATA 'x'")).collect();
+        document(&format!("<!ATTLIST g{names}>"), "")
+    });
     assert_linear("prefixes", 3000, |size| {
         let outer = |i: usize| format!("<g xmlns:n{i}='u{i}'>");
         let open: String = (0..100).map(outer).collect();

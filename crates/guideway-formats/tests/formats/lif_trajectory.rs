@@ -71,6 +71,7 @@ fn knots_that_follow_a_known_mistake_draw_the_curve() {
         ),
         (4, "[0,0,0,0,1,1,1,1]", "the degree is the order"),
         (3, "[0,1]", "the writer lists each knot once"),
+        (3, "[0,0,0,0,0,1,1,1,1,1]", "once too often"),
     ] {
         let layout = arch(degree, knots);
         assert_eq!(points(&layout), right, "{knots}");

@@ -221,6 +221,21 @@ fn borders_lie_on_the_side_of_their_lane() {
 }
 
 #[test]
+fn borders_that_contradict_widths_are_findings() {
+    let lane = |border: f64| {
+        record("width", "sOffset", 0.0, [2.0, 0.0])
+            + &record("border", "sOffset", 0.0, [border, 0.0])
+    };
+    for (inner, outer, contradictions) in [(-2.0, -4.01, 0), (-3.0, -4.0, 1), (-2.0, -2.0, 1)] {
+        let lanes = section(0.0, &[(-1, lane(inner)), (-2, lane(outer))]);
+        let layout = road("9", &line(0.0, 9.0), &lanes);
+        assert_end(&layout, "7.0.-2", [9.0, -3.0]);
+        let found = findings(&layout, Code::Implausible);
+        assert_eq!(found.len(), contradictions, "{found:?}");
+    }
+}
+
+#[test]
 fn wrong_widths_are_findings_at_their_lane() {
     let width = |at, ab| record("width", "sOffset", at, ab);
     for (records, code) in [

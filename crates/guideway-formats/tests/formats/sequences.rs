@@ -213,6 +213,10 @@ fn other_formats_are_named_with_a_way_out() {
             "TopoJSON",
             "ogr2ogr",
         ),
+        (b"LINESTRING Z (0 0 1, 1 1 1)", "(WKT)", "ogr2ogr"),
+        (b"srid=4326;Polygon ((0 0", "(WKT)", "ogr2ogr"),
+        (b"// by ACME\n{\"layouts\": []}", "comments", "remove them"),
+        (b"[{\"layouts\": []}]", "array of layouts", "several files"),
         (
             b"{\"geometryType\": \"esriGeometryPolyline\", \"features\": []}",
             "Esri",
@@ -227,6 +231,8 @@ fn other_formats_are_named_with_a_way_out() {
         );
         assert!(hint.contains(remedy), "{text}: {hint}");
     }
+    let point = read_bytes("test", b"POINT OF SALE", &ReadOptions::default());
+    assert_eq!(point.unwrap_err().code(), "unknown-format");
     // A key of a layout counts more.
     let text = b"{\"features\": [], \"type\": \"FeatureCollection\", \"arcs\": []}";
     assert!(read_bytes("test", text, &ReadOptions::default()).is_ok());

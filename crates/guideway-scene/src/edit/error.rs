@@ -26,6 +26,15 @@ pub enum EditError {
         /// The requested row.
         row: u32,
     },
+    /// Copies would exceed a limit.
+    TooManyCopies {
+        /// Their kind, such as `copies`.
+        what: &'static str,
+        /// Their number.
+        count: u64,
+        /// The limit.
+        limit: u64,
+    },
     /// The number of curves differs from the number of paths.
     CurveCountMismatch,
     /// A transform names a path twice.
@@ -95,6 +104,10 @@ impl fmt::Display for EditError {
             Self::UnknownReference { what, row } => write!(
                 f,
                 "the layout has no {what} in row {row}; choose one that exists"
+            ),
+            Self::TooManyCopies { what, count, limit } => write!(
+                f,
+                "{count} {what} exceed the limit of {limit}; make fewer copies"
             ),
             Self::CurveCountMismatch => write!(f, "the edit needs exactly one curve per path"),
             Self::DuplicatePath { path } => {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_document::Document;
+use guideway_document::{CopiesOf, Document};
 use guideway_formats::read_file;
 use guideway_scene::SceneOptions;
 use guideway_spline::Affine;
@@ -11,9 +11,6 @@ use crate::script::error::StepError;
 use crate::script::members::Members;
 use crate::script::selection::{NODES, PATHS, STATIONS};
 use crate::script::step::{StepKind, Touched, optional, required};
-
-/// Most copies of one step: a slip of the keyboard must not fill the memory.
-const MAX_COPIES: u32 = 10_000;
 
 pub(super) const COPY: StepKind = StepKind {
     name: "copy",
@@ -31,7 +28,7 @@ pub(super) const COPY: StepKind = StepKind {
 
 fn copy(members: &Members<'_>, document: &mut Document) -> Result<Touched, StepError> {
     let elements = members.elements(document)?;
-    let count = members.count("count", MAX_COPIES)?;
+    let count = members.count("count", CopiesOf::MAX_COUNT)?;
     let copied = document.copy(&elements, count, members.point("step")?)?;
     Ok(Touched::of(copied, document))
 }
