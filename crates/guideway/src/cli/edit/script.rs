@@ -1,7 +1,7 @@
 //! Reads a script: checks that each step is known and has no unknown members.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use guideway::document::Document;
@@ -12,6 +12,7 @@ use super::error::StepError;
 use super::members::Members;
 use super::step::{StepKind, Touched};
 use super::steps::STEPS;
+use crate::cli::input::is_stdin;
 use crate::cli::limits;
 
 /// A script to perform.
@@ -48,9 +49,15 @@ impl Script {
     pub(super) fn read(path: &Path) -> Result<Self, UserError> {
         let name = shown_path(path);
         let limit = limits::limits().file_bytes;
-        let read = File::open(path).and_then(|file| {
+        let source: io::Result<Box<dyn Read>> = match is_stdin(path) {
+            true => Ok(Box::new(io::stdin())),
+            false => File::open(path).map(|file| Box::new(file) as Box<dyn Read>),
+        };
+        let read = source.and_then(|source| {
             let mut bytes = Vec::new();
-            file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+            source
+                .take(limit.saturating_add(1))
+                .read_to_end(&mut bytes)?;
             Ok(bytes)
         });
         let bytes = read.map_err(|error| {
