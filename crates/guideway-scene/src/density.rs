@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::color::Rgba;
 use crate::color_by::{Legend, LegendEntry, LegendScale};
 use crate::frame::Frame;
-use crate::ramp::{COLORS, between};
+use crate::ramp::{COLORS, Ramp, between};
 
 /// Pixels per parallel task: large enough that scheduling costs nothing against the work.
 const CHUNK: usize = 1 << 16;
@@ -30,7 +30,7 @@ pub enum ToneMap {
 /// Least distance of the numbers of a legend, as a share of its scale: a line of text.
 const LEAST_GAP: f64 = 0.12;
 
-/// Color ramp from few paths to many. Lightness rises evenly.
+/// Colors from few paths to many, of which a picture shows those that stand out from its paper.
 const STEPS: [Rgba; 6] = [
     Rgba::opaque(20, 30, 80),
     Rgba::opaque(60, 50, 140),
@@ -46,9 +46,9 @@ const STEPS: [Rgba; 6] = [
 /// # Panics
 /// When `counts` and `frame` differ in length.
 pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame) -> Legend {
-    let mut tones = ToneScale::new(tone);
+    let mut tones = ToneScale::new(tone, background);
     tones.observe(counts);
-    tones.shade(counts, background, frame);
+    tones.shade(counts, frame);
     tones.legend()
 }
 
@@ -59,15 +59,20 @@ pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame)
 #[derive(Clone, Debug)]
 pub struct ToneScale {
     tone: ToneMap,
+    background: Rgba,
+    colors: Ramp,
     max_count: f32,
     histogram: Histogram,
 }
 
 impl ToneScale {
     /// A scale that has seen no counts yet.
-    pub fn new(tone: ToneMap) -> Self {
+    pub fn new(tone: ToneMap, background: Rgba) -> Self {
+        let color = |share| between(STEPS.len(), |i| STEPS[i], share);
         Self {
             tone,
+            background,
+            colors: Ramp::standing_out(color, background),
             max_count: 1.0,
             histogram: Histogram::default(),
         }
@@ -95,15 +100,14 @@ impl ToneScale {
     ///
     /// # Panics
     /// When `counts` and `frame` differ in length.
-    pub fn shade(&self, counts: &[f32], background: Rgba, frame: &mut Frame) {
+    pub fn shade(&self, counts: &[f32], frame: &mut Frame) {
         assert_eq!(counts.len(), frame.pixels().len(), "one count per pixel");
-        let along = self.along();
-        let ramp = Ramp::new(self.max_count, background, along);
+        let table = ColorTable::new(self);
         let pixels = frame.pixels_mut().par_chunks_mut(CHUNK);
         let parts = pixels.zip(counts.par_chunks(CHUNK));
         parts.for_each(|(pixels, counts)| {
             for (pixel, &count) in pixels.iter_mut().zip(counts) {
-                *pixel = ramp.at(count);
+                *pixel = table.at(count);
             }
         });
     }
@@ -139,7 +143,7 @@ impl ToneScale {
             {
                 let entry = LegendEntry {
                     label: format!("{count}"),
-                    color: ramp_color(first + span * at),
+                    color: self.colors.at(first + span * at),
                     paths: None,
                 };
                 ticks.push((at, entry));
@@ -147,7 +151,10 @@ impl ToneScale {
         }
         ticks.reverse();
         let (at, entries) = ticks.into_iter().unzip();
-        let color = |i: usize| ramp_color(first + span * i as f64 / (COLORS - 1) as f64);
+        let color = |i: usize| {
+            self.colors
+                .at(first + span * i as f64 / (COLORS - 1) as f64)
+        };
         let colors = (0..COLORS).map(color).collect();
         Legend {
             column: "paths per pixel".to_owned(),
@@ -165,27 +172,23 @@ fn round_counts(up_to: f32) -> impl DoubleEndedIterator<Item = f32> {
     counts.into_iter()
 }
 
-/// The color at a place on the ramp, 0 to 1.
-fn ramp_color(along: f64) -> Rgba {
-    between(STEPS.len(), |i| STEPS[i], along)
-}
-
 /// Lookup table from counts to pixels. Neighboring entries differ by about 1/1000 of 1 + count, so
 /// that whole counts up to 2048 and, below one, whole numbers of samples have entries of their own.
-struct Ramp(Vec<[u8; 4]>);
+struct ColorTable(Vec<[u8; 4]>);
 
-impl Ramp {
+impl ColorTable {
     /// Entries per power of two, as bits.
     const BITS: u32 = 10;
     /// Mantissa bits that the table drops.
     const BITS_BELOW: u32 = f32::MANTISSA_DIGITS - 1 - Self::BITS;
 
-    /// A table up to `max_count`; `along` maps a count to a position on the ramp, 0 to 1.
-    fn new(max_count: f32, background: Rgba, along: impl Fn(f32) -> f64) -> Self {
+    /// A table of all counts of a scale.
+    fn new(tones: &ToneScale) -> Self {
+        let (max_count, background, along) = (tones.max_count, tones.background, tones.along());
         let pixels = (0..=Self::entry(max_count)).map(|entry| {
             let bits = ((entry as u32) << Self::BITS_BELOW) + 1_f32.to_bits();
             let count = (f32::from_bits(bits) - 1.0).min(max_count);
-            let color = ramp_color(along(count));
+            let color = tones.colors.at(along(count));
             let shown = background.lerp(color, f64::from(count.min(1.0)));
             [shown.r, shown.g, shown.b, shown.a]
         });
@@ -288,6 +291,7 @@ impl Ranks {
 mod tests {
     use super::*;
     use crate::FrameSize;
+    use crate::ramp::{CONTRAST, contrast};
 
     #[test]
     fn maps_zero_to_background_and_maximum_to_last_color() {
@@ -295,7 +299,7 @@ mod tests {
         for tone in [ToneMap::Linear, ToneMap::Log, ToneMap::Equalized] {
             shade(&[0.0, 10.0, 1000.0], tone, Rgba::WHITE, &mut frame);
             assert_eq!(frame.pixels()[0], [255; 4]);
-            assert_eq!(frame.pixels()[2], [250, 240, 150, 255]);
+            assert_eq!(frame.pixels()[2], step(5));
         }
     }
 
@@ -307,31 +311,37 @@ mod tests {
     }
 
     fn step(index: usize) -> [u8; 4] {
-        let Rgba { r, g, b, a } = STEPS[index];
+        let colors = ToneScale::new(ToneMap::Log, Rgba::WHITE).colors;
+        let Rgba { r, g, b, a } = colors.at(index as f64 / 5.0);
         [r, g, b, a]
+    }
+
+    #[test]
+    fn all_colors_stand_out_from_the_background() {
+        for gray in [255, 0, 44, 119] {
+            let paper = Rgba::opaque(gray, gray, gray);
+            let scale = ToneScale::new(ToneMap::Log, paper).legend().scale.unwrap();
+            for color in &scale.colors {
+                assert!(contrast(*color, paper) >= CONTRAST, "{color:?}");
+            }
+        }
     }
 
     #[test]
     fn equalizing_gives_each_fifth_of_the_crowded_pixels_a_color() {
         let counts = [3.0, 1.0, 1024.0, 8.0, 0.5, 2.0, 3.5];
         let shown = colors(&counts, ToneMap::Equalized);
-        let half = Rgba::WHITE.lerp(STEPS[0], 0.5);
         let mut expected = [2, 0, 5, 4, 0, 1, 3].map(step);
-        expected[4] = [half.r, half.g, half.b, half.a];
+        expected[4] = expected[4].map(|channel| (f32::from(channel) / 2.0 + 127.5).round() as u8);
         assert_eq!(shown, expected);
     }
 
     #[test]
-    fn many_equal_counts_take_many_colors() {
+    fn many_equal_counts_take_many_colors_and_those_up_to_one_the_first() {
         let shown = colors(&[2.0, 2.0, 4.0, 2.0, 2.0], ToneMap::Equalized);
         assert_eq!(shown, [4, 4, 5, 4, 4].map(step));
-    }
-
-    #[test]
-    fn counts_up_to_one_have_the_first_color() {
-        let shown = colors(&[1.0, 1.0, 0.0], ToneMap::Equalized);
-        assert_eq!(shown[..2], [0; 2].map(step));
-        assert_eq!(shown[2], [255; 4]);
+        let up_to_one = colors(&[1.0, 1.0, 0.0], ToneMap::Equalized);
+        assert_eq!(up_to_one, [step(0), step(0), [255; 4]]);
     }
 
     #[test]
@@ -341,11 +351,10 @@ mod tests {
         let counts: Vec<f32> = (0..frame.pixels().len()).map(count).collect();
         assert!(counts.len() > 2 * CHUNK, "spans several chunks");
         let most = f64::from(count(1008));
+        let colors = ToneScale::new(ToneMap::Log, Rgba::WHITE).colors;
         let exact = |count: f32, along: f64| {
-            let below = (along * 5.0).min(4.0) as usize;
-            let color = STEPS[below].lerp(STEPS[below + 1], along * 5.0 - below as f64);
-            let Rgba { r, g, b, a } = Rgba::WHITE.lerp(color, f64::from(count.min(1.0)));
-            [r, g, b, a]
+            let shown = Rgba::WHITE.lerp(colors.at(along), f64::from(count.min(1.0)));
+            [shown.r, shown.g, shown.b, shown.a]
         };
         for tone in [ToneMap::Log, ToneMap::Linear] {
             shade(&counts, tone, Rgba::WHITE, &mut frame);
@@ -367,13 +376,13 @@ mod tests {
         let mut by_parts = whole.clone();
         let counts: Vec<f32> = (0..3000).map(|i| (i * i % 97) as f32 * 0.25).collect();
         shade(&counts, ToneMap::Equalized, Rgba::WHITE, &mut whole);
-        let mut tones = ToneScale::new(ToneMap::Equalized);
+        let mut tones = ToneScale::new(ToneMap::Equalized, Rgba::WHITE);
         counts.chunks(700).for_each(|part| tones.observe(part));
-        tones.shade(&counts, Rgba::WHITE, &mut by_parts);
+        tones.shade(&counts, &mut by_parts);
         assert!(by_parts == whole);
-        let mut partial = ToneScale::new(ToneMap::Equalized);
+        let mut partial = ToneScale::new(ToneMap::Equalized, Rgba::WHITE);
         partial.observe(&counts[..700]);
-        partial.shade(&counts, Rgba::WHITE, &mut by_parts);
+        partial.shade(&counts, &mut by_parts);
         assert!(by_parts != whole);
     }
 

@@ -4,7 +4,7 @@
 use crate::color::Rgba;
 
 /// Least contrast of a line with what is around it (WCAG 2.2, criterion 1.4.11).
-const CONTRAST: f64 = 3.0;
+pub(crate) const CONTRAST: f64 = 3.0;
 /// Colors of a ramp. Derived: neighbors differ by less than an eye can tell.
 pub(crate) const COLORS: usize = 65;
 /// Least share of a palette that a ramp shows as it is: on a background of medium gray, no longer
@@ -112,16 +112,21 @@ pub(crate) fn between(count: usize, color: impl Fn(usize) -> Rgba, share: f64) -
 pub(crate) struct Ramp(Vec<Rgba>);
 
 impl Ramp {
-    /// The longest part of a palette that stands out from a background. If all parts are short, the
-    /// whole palette, mixed with black or white until it stands out.
+    /// The colors of a palette that stand out from a background.
     pub(crate) fn new(by: &NumberColors) -> Self {
-        let paper = match by.background.a {
+        Self::standing_out(|share| by.palette.at(share), by.background)
+    }
+
+    /// The longest part of some colors, by shares of 0 to 1, that stands out from a background. If
+    /// all parts are short, all colors, mixed with black or white until they stand out.
+    pub(crate) fn standing_out(colors: impl Fn(f64) -> Rgba, background: Rgba) -> Self {
+        let paper = match background.a {
             0 => Rgba::WHITE,
-            _ => by.background,
+            _ => background,
         };
         const STEPS: usize = 256;
         let share = |step: usize| step as f64 / STEPS as f64;
-        let stands_out = |step: &usize| contrast(by.palette.at(share(*step)), paper) >= CONTRAST;
+        let stands_out = |step: &usize| contrast(colors(share(*step)), paper) >= CONTRAST;
         let (mut best, mut first) = (0..0, None);
         for step in 0..=STEPS + 1 {
             let is_in = step <= STEPS && stands_out(&step);
@@ -143,7 +148,7 @@ impl Ramp {
         };
         let color = |i: usize| {
             let along = i as f64 / (COLORS - 1) as f64;
-            let color = by.palette.at(low + (high - low) * along);
+            let color = colors(low + (high - low) * along);
             match is_short {
                 true => standing_out(color, paper),
                 false => color,
@@ -179,7 +184,7 @@ fn standing_out(color: Rgba, paper: Rgba) -> Rgba {
 }
 
 /// Contrast of two opaque colors, 1 to 21 (WCAG 2.2).
-fn contrast(a: Rgba, b: Rgba) -> f64 {
+pub(crate) fn contrast(a: Rgba, b: Rgba) -> f64 {
     let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
     (a / b).max(b / a)
 }

@@ -2,7 +2,7 @@
 
 use guideway_document::decorations::{Corner, DecorationStyle, legend, scale_bar_box};
 use guideway_scene::density::{ToneMap, ToneScale};
-use guideway_scene::{DrawList, FrameSize, Legend, Scene, Shading, View};
+use guideway_scene::{DrawList, FrameSize, Legend, Rgba, Scene, Shading, View};
 use guideway_spline::Bounds;
 use guideway_spline::uniform::to_bezier;
 
@@ -24,7 +24,7 @@ pub(crate) struct PlacedLegend {
 pub(crate) fn colors_of(scene: &Scene, shading: Shading) -> Option<Legend> {
     match shading {
         Shading::Color => scene.legend().cloned(),
-        Shading::Density(_) => Some(ToneScale::new(ToneMap::Log).legend()),
+        Shading::Density(_) => Some(ToneScale::new(ToneMap::Log, Rgba::WHITE).legend()),
     }
 }
 

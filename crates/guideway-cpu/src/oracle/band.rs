@@ -3,6 +3,8 @@
 use guideway_scene::Rgba;
 use guideway_spline::{Bounds, Point};
 
+use super::stroke::Stroke;
+
 /// Samples along each side of a pixel.
 const SIDE: usize = 16;
 const SAMPLES_PER_PIXEL: usize = SIDE * SIDE;
@@ -61,18 +63,19 @@ impl Band {
         self.samples.capacity() * size_of::<Sample>() + self.hits.capacity() * size_of::<u64>()
     }
 
-    /// Composites `color` over every sample within the radius of the line from `start` to `end`
-    /// that path number `order` has not covered yet.
+    /// Composites a path over every sample within its radius of the line from `start` to `end`, but
+    /// for those that it has covered before, as path number `order`, and those that its caps leave
+    /// out.
     pub(super) fn cover(
         &mut self,
         start: Point<f64>,
         end: Point<f64>,
-        radius_px: f64,
+        stroke: &Stroke,
         order: u32,
-        color: Rgba,
     ) {
-        let ink = premultiplied(color);
-        let shows_through = 1.0 - f32::from(color.a) / 255.0;
+        let ink = premultiplied(stroke.color);
+        let shows_through = 1.0 - f32::from(stroke.color.a) / 255.0;
+        let radius_px = stroke.radius_px;
         let along = end - start;
         let length_squared = along.dot(along);
         let origin = self.bounds_px.min;
@@ -83,7 +86,8 @@ impl Band {
 
         for row in first_row..last_row {
             for column in first_column..last_column {
-                let from_start = origin + Point::new(position(column), position(row)) - start;
+                let at = origin + Point::new(position(column), position(row));
+                let from_start = at - start;
                 // Nearest point of the line; a line without length is a point.
                 let fraction = if length_squared > 0.0 {
                     (from_start.dot(along) / length_squared).clamp(0.0, 1.0)
@@ -92,7 +96,8 @@ impl Band {
                 };
                 let apart = from_start - along * fraction;
                 let sample = &mut self.samples[row * self.columns + column];
-                if apart.dot(apart) <= radius_px * radius_px && sample.covered_by != order {
+                let is_near = apart.dot(apart) <= radius_px * radius_px;
+                if is_near && sample.covered_by != order && !stroke.leaves_out(at) {
                     sample.covered_by = order;
                     for (below, ink) in sample.over.iter_mut().zip(ink) {
                         *below = ink + *below * shows_through;

@@ -231,7 +231,8 @@ impl<'d> Visible<'d> {
             max_crossed: MAX_CROSSED_NODE,
             spares_arrows: false,
         });
-        let paths = self.paths.iter().filter_map(|&row| {
+        let driven = self.paths.iter().filter(|row| !is_structure(layout, **row));
+        let paths = driven.filter_map(|&row| {
             let (at_px, is_level) = arrows::middle(path(row), self.view, px_per_point)?;
             Some(Name {
                 text: path(row).id(),

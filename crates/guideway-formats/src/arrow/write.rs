@@ -1,7 +1,8 @@
 //! Arrow table writer: writes runs row by row into record batches.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use arrow_array::{ArrayRef, RecordBatch};
 use arrow_schema::Schema;
@@ -31,8 +32,10 @@ use crate::write_error::{WriteError, WriteProblem, fail};
 /// writer.finish()?;
 /// # Ok::<(), guideway_formats::arrow::WriteError>(())
 /// ```
-pub struct ArrowWriter {
-    file: IpcFile<NewFile>,
+pub struct ArrowWriter<W: Write = NewFile> {
+    /// Of the stream, for messages.
+    path: PathBuf,
+    file: IpcFile<W>,
     ids: IdCells,
     polygons: PolygonCells,
     columns: Vec<Column>,
@@ -49,12 +52,38 @@ impl ArrowWriter {
         precision: Precision,
         columns: Vec<Column>,
     ) -> Result<Self, WriteError> {
-        let file = NewFile::create(path)?;
-        Self::begin(file, precision, columns).map_err(|p| fail(path, p))
+        Self::to_stream(NewFile::create(path)?, path, precision, columns)
+    }
+
+    /// Writes the last batch and replaces the target. Returns the size of the file in bytes.
+    ///
+    /// # Errors
+    /// When the disk is full, or the target cannot be replaced; the target is then unchanged.
+    pub fn finish(self) -> Result<u64, WriteError> {
+        let file = self.finish_stream()?;
+        let bytes = file.bytes();
+        file.commit()?;
+        Ok(bytes)
+    }
+}
+
+impl<W: Write> ArrowWriter<W> {
+    /// Makes a writer to a stream, which errors call `name`: see [`ArrowWriter::create`].
+    ///
+    /// # Errors
+    /// When the stream fails, or two columns share a name.
+    pub fn to_stream(
+        out: W,
+        name: &Path,
+        precision: Precision,
+        columns: Vec<Column>,
+    ) -> Result<Self, WriteError> {
+        Self::begin(out, name, precision, columns).map_err(|p| fail(name, p))
     }
 
     fn begin(
-        file: NewFile,
+        file: W,
+        path: &Path,
         precision: Precision,
         columns: Vec<Column>,
     ) -> Result<Self, WriteProblem> {
@@ -72,6 +101,7 @@ impl ArrowWriter {
         let metadata = HashMap::from([(VERSION_KEY.to_owned(), PATHS_VERSION.to_string())]);
         let schema = Schema::new_with_metadata(fields, metadata);
         Ok(Self {
+            path: path.to_owned(),
             file: IpcFile::begin(file, schema.into())?,
             ids,
             polygons,
@@ -92,7 +122,7 @@ impl ArrowWriter {
         values: &[Option<Value<'_>>],
     ) -> Result<(), WriteError> {
         self.push_inner(id, run, values)
-            .map_err(|p| fail(self.file.out().path(), p))
+            .map_err(|p| fail(&self.path, p))
     }
 
     fn push_inner<T: Real>(
@@ -148,18 +178,14 @@ impl ArrowWriter {
         self.file.write(&batch)
     }
 
-    /// Writes the last batch and replaces the target. Returns the size of the file in bytes.
+    /// Writes the last batch. Returns the stream.
     ///
     /// # Errors
-    /// When the disk is full, or the target cannot be replaced; the target is then unchanged.
-    pub fn finish(mut self) -> Result<u64, WriteError> {
-        let target = self.file.out().path().to_owned();
+    /// When the stream fails.
+    pub fn finish_stream(mut self) -> Result<W, WriteError> {
         if self.polygons.rows() > 0 {
-            self.write_batch().map_err(|p| fail(&target, p))?;
+            self.write_batch().map_err(|p| fail(&self.path, p))?;
         }
-        let file = self.file.finish().map_err(|p| fail(&target, p))?;
-        let bytes = file.bytes();
-        file.commit()?;
-        Ok(bytes)
+        self.file.finish().map_err(|p| fail(&self.path, p))
     }
 }

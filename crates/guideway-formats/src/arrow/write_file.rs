@@ -31,11 +31,6 @@ impl<W: Write> IpcFile<W> {
         })
     }
 
-    /// The stream.
-    pub(super) fn out(&self) -> &W {
-        self.writer.get_ref()
-    }
-
     /// The schema of its batches.
     pub(super) fn schema(&self) -> SchemaRef {
         self.schema.clone()

@@ -17,10 +17,11 @@ use guideway::spline::{Point, Runs};
 use guideway_datasets::d1;
 use serde_json::{Value, json};
 
-use super::check::{findings_text, save_picture};
+use super::check::{findings_text, write_picture};
 use super::error::{Exit, json_error, usage_error};
 use super::input::{self, Input};
 use super::output::{Output, save};
+use super::picture_output::PictureOutput;
 use super::{text, values};
 
 /// The example site, part of the program so that the demo runs anywhere.
@@ -173,7 +174,9 @@ fn draw_findings(folder: &Path, faulty: &[u8], out: &Output) -> Result<(Made, St
     let report = findings_text(&input, &layout, found.clone());
     save(&folder.join("findings.txt"), report.as_bytes())?;
     drop(progress);
-    save_picture(layout, &found, NAME, &folder.join("findings.png"), out)?;
+    let file = folder.join("findings.png");
+    let picture = PictureOutput::new(&file, None, [], out)?;
+    write_picture(layout, &found, NAME, &picture, out)?;
     let first = report.split("\n\n").next().unwrap_or_default();
     let made = Made {
         name: "findings.png",

@@ -1,15 +1,18 @@
 //! `guideway edit`: edits a layout by a script of steps in JSON.
 
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
+use guideway::formats::Target;
 use guideway::layout::{UserError, shown_path};
 use guideway::scene::Table;
 use guideway::script::{self, Applied, AppliedStep, SHOWN_NAMES, Script};
 use serde_json::{Value, json};
 
-use super::convert::{target_to_save, write};
 use super::error::Exit;
 use super::input::{self, Input};
+use super::layout_output::{LayoutOutput, Written, target_parser};
 use super::output::Output;
 use super::{limits, text};
 
@@ -19,29 +22,35 @@ pub(crate) struct Args {
     /// Layout file; the content decides the format
     #[arg(value_name = "FILE", value_parser = Input::parser())]
     input: Input,
-    /// Steps, as JSON: {"steps": [{"do": "rename", "node": "N7", "to": "gate"}]}
+    /// Steps, as JSON: {"steps": [{"do": "rename", "node": "N7", "to": "gate"}]}. `-` is standard
+    /// input
     #[arg(long, value_name = "STEPS")]
     script: PathBuf,
-    /// File to write; its extension selects the format. LIF stays in the version that was read
+    /// File to write; its extension selects the format unless --to is given. LIF stays in the
+    /// version that was read. `-` is standard output
     #[arg(short, long, value_name = "OUT", required_unless_present = "dry_run")]
     output: Option<PathBuf>,
+    /// Format of the output
+    #[arg(long, value_name = "FORMAT", value_parser = target_parser())]
+    to: Option<Target>,
     /// List what each step would touch, and write nothing
     #[arg(long)]
     dry_run: bool,
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    let script = Script::read(&args.script, limits::limits().file_bytes)?;
+    let inputs = || [args.input.path.as_path(), args.script.as_path()];
+    input::check_stdin_paths(inputs())?;
+    let script = read_script(&args.script)?;
     let output = args.output.as_ref().filter(|_| !args.dry_run);
-    if let Some(output) = output {
-        let inputs = [args.input.path.as_path(), args.script.as_path()];
-        input::check_output(inputs, output)?;
-    }
+    let target = output.map(|path| LayoutOutput::new(path, args.to, inputs(), out));
+    let target = target.transpose()?;
     let (layout, read_ms) = input::read_all(std::slice::from_ref(&args.input), out)?;
     let refused = layout.refused.len();
-    let target = output
-        .map(|output| target_to_save(&layout, output))
-        .transpose()?;
+    let target = match target {
+        Some(output) => Some((output, output.target(&layout)?)),
+        None => None,
+    };
     let progress = out.progress("editing");
     let applied = script.apply(layout, &limits::read_options(None));
     let Applied { layout, steps } = applied.map_err(|error| {
@@ -54,18 +63,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         }
     })?;
     let edit_ms = progress.finish();
-    let mut write_ms = 0.0;
-    let mut written = None;
-    if let (Some(output), Some(target)) = (output, target) {
-        let progress = out.progress(format!("writing {}", shown_path(output)));
-        written = Some((output, target, write(target, &layout, output, &progress)?));
-        write_ms = progress.finish();
-    }
+    let written = target.map(|(output, target)| output.write(&layout, target, out));
+    let written = written.transpose()?;
+    let write_ms = written.as_ref().map_or(0.0, |written| written.ms);
     let total_ms = read_ms + edit_ms + write_ms;
-    let lost = written.iter().flat_map(|(_, _, (losses, _))| losses.iter());
-    let lost = lost.map(
-        |loss| json!({ "place": loss.what, "count": loss.count, "message": loss.to_string() }),
-    );
     let body = json!({
         "file": args.input.path.to_string_lossy(),
         "script": args.script.to_string_lossy(),
@@ -73,33 +74,47 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "dry_run": args.dry_run,
         "steps": steps.iter().zip(1..).map(step_json).collect::<Vec<_>>(),
         "refused": refused,
-        "not_stored": lost.collect::<Vec<Value>>(),
+        "not_stored": written.as_ref().map_or(json!([]), Written::losses_json),
         "ms": { "read": read_ms, "edit": edit_ms, "write": write_ms, "total": total_ms },
     });
+    let out = output.map_or(*out, |output| out.beside(output));
     out.report("edit", &body, || {
         let lines = steps
             .iter()
             .zip(1..)
             .map(|(step, number)| step_line(step, number));
         let mut words: String = lines.collect();
-        match &written {
-            None => words += "nothing was written\n",
-            Some((output, target, (losses, bytes))) => {
-                if !losses.is_empty() {
-                    words += &format!("{} cannot hold, or holds in another form:\n", target.name());
-                }
-                for loss in losses.iter() {
-                    let what = text::single_line(&loss.what, 80);
-                    let detail = text::single_line(&loss.noun(), 200);
-                    words += &format!("  {what}: {} {detail}\n", text::count(loss.count));
-                }
-                let (name, size) = (shown_path(output), text::bytes(*bytes));
+        match (&written, output) {
+            (Some(written), Some(output)) => {
+                words += &written.losses_text();
+                let (name, size) = (shown_path(output), text::bytes(written.bytes));
                 words += &format!("{name}: {size}\n");
             }
+            _ => words += "nothing was written\n",
         }
         words + &format!("took {}\n", text::time(total_ms))
     })?;
     Ok(Exit::Clean)
+}
+
+/// Reads a script from a file or standard input.
+fn read_script(path: &Path) -> Result<Script, UserError> {
+    let source: io::Result<Box<dyn Read>> = match input::is_stdin(path) {
+        true => Ok(Box::new(io::stdin())),
+        false => File::open(path).map(|file| Box::new(file) as Box<dyn Read>),
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let unreadable = |error: io::Error| {
+        let remedy = "Name a JSON file with steps";
+        UserError::new("edit-script", error.to_string(), remedy)
+    };
+    let script = source.map_err(unreadable);
+    let script =
+        script.and_then(|source| Script::read(source, folder, limits::limits().file_bytes));
+    script.map_err(|error| {
+        let message = format!("{}: {}", shown_path(path), error.message);
+        UserError { message, ..error }
+    })
 }
 
 fn step_json((step, number): (&AppliedStep, u32)) -> Value {

@@ -1,5 +1,6 @@
 //! `guideway generate`: a test layout of any size, streamed to an Arrow file.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -10,9 +11,10 @@ use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
 use serde_json::json;
 
 use super::error::Exit;
-use super::output::Output;
+use super::output::{Output, is_stdout};
 use super::progress_bar::ProgressBar;
-use super::{input, text, values};
+use super::stdout::Stdout;
+use super::{input, stdout, text, values};
 
 /// Extensions of Arrow files.
 const EXTENSIONS: [&str; 2] = ["arrow", "feather"];
@@ -29,7 +31,7 @@ pub(crate) struct Args {
     /// Seed of the random numbers; the same seed generates the same file
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Arrow file to write: .arrow or .feather
+    /// Arrow file to write: .arrow or .feather. `-` is standard output
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
 }
@@ -43,7 +45,7 @@ enum Dataset {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    check_output(&args.output)?;
+    check_output(&args.output, out)?;
     let progress = out.progress(format!("writing {}", shown_path(&args.output)));
     let (file, paths) = (&args.output, args.paths);
     let bytes = match args.dataset {
@@ -65,7 +67,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "bytes": bytes,
         "ms": { "total": took_ms },
     });
-    out.report("generate", &body, || {
+    out.beside(&args.output).report("generate", &body, || {
         format!(
             "{}: {} of {}, {}\ntook {}\n",
             shown_path(&args.output),
@@ -79,7 +81,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
 }
 
 /// Rejects an output that is not an Arrow file, before any long work.
-fn check_output(output: &Path) -> Result<(), UserError> {
+fn check_output(output: &Path, out: &Output) -> Result<(), UserError> {
+    if is_stdout(output) {
+        return stdout::check(out, Some("Arrow"));
+    }
     let extension = output.extension().unwrap_or_default();
     if !EXTENSIONS.iter().any(|e| extension.eq_ignore_ascii_case(e)) {
         return Err(UserError::new(
@@ -100,13 +105,34 @@ fn write(
     paths: impl Iterator<Item = GeneratedPath>,
     total: usize,
     progress: &ProgressBar,
-) -> Result<u64, WriteError> {
-    let columns = vec![
+) -> Result<u64, UserError> {
+    let columns = columns();
+    if !is_stdout(file) {
+        let mut writer = ArrowWriter::create(file, Precision::F32, columns)?;
+        push(&mut writer, paths, total, progress)?;
+        return Ok(writer.finish()?);
+    }
+    let mut writer = ArrowWriter::to_stream(Stdout::lock(), file, Precision::F32, columns)?;
+    push(&mut writer, paths, total, progress)?;
+    let mut stream = writer.finish_stream()?;
+    stream.flush().map_err(stdout::fail)?;
+    Ok(stream.bytes())
+}
+
+fn columns() -> Vec<Column> {
+    vec![
         Column::new("kind", ColumnType::Text),
         Column::new("max_speed", ColumnType::Float32),
         Column::new("hall", ColumnType::Int32),
-    ];
-    let mut writer = ArrowWriter::create(file, Precision::F32, columns)?;
+    ]
+}
+
+fn push<W: Write>(
+    writer: &mut ArrowWriter<W>,
+    paths: impl Iterator<Item = GeneratedPath>,
+    total: usize,
+    progress: &ProgressBar,
+) -> Result<(), WriteError> {
     for (done, path) in paths.enumerate() {
         let values = [
             Some(Value::Text(path.kind.name())),
@@ -118,5 +144,5 @@ fn write(
             progress.advance(done as u64, total as u64);
         }
     }
-    writer.finish()
+    Ok(())
 }

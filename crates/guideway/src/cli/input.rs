@@ -12,8 +12,7 @@ use guideway::layout::{Layout, Limits, UserError, merge, near_names, shown_path}
 use guideway::spline::{Affine, Point};
 
 use super::error::{same_file_error, usage_error};
-use super::output::Output;
-use super::stdout::is_stdout;
+use super::output::{Output, is_stdout};
 use super::{limits, values};
 
 /// Help on placements, for every command that reads several files.
@@ -143,13 +142,21 @@ pub(crate) fn read_input(path: &Path, options: &ReadOptions<'_>) -> Result<Layou
     }
 }
 
-fn is_stdin(path: &Path) -> bool {
+/// Returns `true` if a path names standard input.
+pub(crate) fn is_stdin(path: &Path) -> bool {
     path == Path::new("-")
 }
 
 /// Rejects a second `-`, and one that would wait for what somebody types.
 pub(crate) fn check_stdin(inputs: &[Input]) -> Result<(), UserError> {
-    match inputs.iter().filter(|input| is_stdin(&input.path)).count() {
+    check_stdin_paths(inputs.iter().map(|input| input.path.as_path()))
+}
+
+/// As [`check_stdin`], for all files of a command.
+pub(crate) fn check_stdin_paths<'a>(
+    files: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), UserError> {
+    match files.into_iter().filter(|file| is_stdin(file)).count() {
         0 => Ok(()),
         1 if !io::stdin().is_terminal() => Ok(()),
         1 => Err(usage_error(

@@ -5,7 +5,7 @@
 //! | `default_command` | the command that `guideway FILE` means |
 //! | `app` | parses arguments, dispatches to a subcommand, exits |
 //! | `input`, `floor_plan`, `envelope`, `values`, `limits` | read arguments and files |
-//! | `picture_file` | names of pictures |
+//! | `layout_output`, `picture_file`, `picture_output` | outputs: layouts, names of pictures, pictures |
 //! | `output`, `stdout`, `text`, `colors`, `progress_bar`, `error`, `process` | reports, errors, exit codes, threads and signals |
 //! | all others | one subcommand each |
 
@@ -24,11 +24,13 @@ mod floor_plan;
 mod generate;
 mod info;
 mod input;
+mod layout_output;
 mod limits;
 mod methods;
 mod network;
 mod output;
 mod picture_file;
+mod picture_output;
 mod process;
 mod progress_bar;
 mod render;

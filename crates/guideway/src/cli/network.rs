@@ -4,13 +4,14 @@ use std::fs;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use guideway::formats::Target;
 use guideway::layout::{CheckOptions, FindingKind, UserError, check, shown_path};
 use guideway::network::{AnalyzeOptions, BuildOptions, LayerRule, NoteSource, analyze, build};
 use serde_json::{Value, json};
 
-use super::convert::{target_to_save, write};
 use super::error::Exit;
 use super::input::{self, Input};
+use super::layout_output::{LayoutOutput, target_parser};
 use super::output::{Output, save};
 use super::{text, values};
 
@@ -20,9 +21,12 @@ pub(crate) struct Args {
     /// Drawings; the content decides the format
     #[arg(required = true, value_name = "PLAN", value_parser = Input::parser())]
     inputs: Vec<Input>,
-    /// File to write; its extension selects the format
+    /// File to write; its extension selects the format unless --to is given. `-` is standard output
     #[arg(short, long, value_name = "SITE")]
     output: PathBuf,
+    /// Format of the output
+    #[arg(long, value_name = "FORMAT", value_parser = target_parser())]
+    to: Option<Target>,
     /// Options and rules per layer, in TOML; arguments override them
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
@@ -121,9 +125,10 @@ impl Args {
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let options = args.options()?;
-    input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?;
+    let inputs = args.inputs.iter().map(|input| input.path.as_path());
+    let output = LayoutOutput::new(&args.output, args.to, inputs, out)?;
     let (drawing, read_ms) = input::read_all(&args.inputs, out)?;
-    let target = target_to_save(&drawing, &args.output)?;
+    let target = output.target(&drawing)?;
     let progress = out.progress("building the network");
     let made = build(&drawing, &options)?;
     let build_ms = progress.finish();
@@ -132,9 +137,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let mut found = check(&made.layout, &CheckOptions::default());
     found.append(analyze(&made.layout, &AnalyzeOptions::default()));
     let check_ms = progress.finish();
-    let progress = out.progress(format!("writing {}", shown_path(&args.output)));
-    let (losses, bytes) = write(target, &made.layout, &args.output, &progress)?;
-    let write_ms = progress.finish();
+    let written = output.write(&made.layout, target, out)?;
+    let (bytes, write_ms) = (written.bytes, written.ms);
     if let Some(file) = &args.save_map {
         save(file, options.to_toml()?.as_bytes())?;
     }
@@ -164,16 +168,14 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "severity": kind.severity.to_string(),
             "count": kind.count,
         })).collect::<Vec<_>>(),
-        "not_stored": losses.iter().map(|loss| json!({
-            "place": loss.what, "count": loss.count, "message": loss.to_string(),
-        })).collect::<Vec<_>>(),
+        "not_stored": written.losses_json(),
         "bytes": bytes,
         "ms": {
             "read": read_ms, "build": build_ms, "check": check_ms, "write": write_ms,
             "total": total_ms,
         },
     });
-    out.report("network", &body, || {
+    out.beside(&args.output).report("network", &body, || {
         let mut words = made.report.lines(&options).join("\n");
         words += "\ncheck: ";
         words += &match kinds.is_empty() {
@@ -185,14 +187,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
                 kinds.collect::<Vec<_>>().join(", ") + "\n"
             }
         };
-        if !losses.is_empty() {
-            words += &format!("{} cannot hold, or holds in another form:\n", target.name());
-        }
-        for loss in losses.iter() {
-            let what = text::single_line(&loss.what, 80);
-            let detail = text::single_line(&loss.noun(), 200);
-            words += &format!("  {what}: {} {detail}\n", text::count(loss.count));
-        }
+        words += &written.losses_text();
         let (name, size) = (shown_path(&args.output), text::bytes(bytes));
         words + &format!("{name}: {size}, took {}\n", text::time(total_ms))
     })?;

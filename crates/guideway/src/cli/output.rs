@@ -20,6 +20,8 @@ pub(crate) const REPORT_VERSION: u32 = 1;
 pub(crate) struct Output {
     json: bool,
     quiet: bool,
+    /// Standard output holds a file: reports for people go to standard error.
+    is_beside: bool,
 }
 
 /// A report with its header: the form of every JSON answer.
@@ -36,9 +38,26 @@ struct Header<'a> {
     version: u32,
 }
 
+/// Returns `true` if a path names standard output.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
 impl Output {
     pub(crate) fn new(json: bool, quiet: bool) -> Self {
-        Self { json, quiet }
+        Self {
+            json,
+            quiet,
+            is_beside: false,
+        }
+    }
+
+    /// The output of reports beside that of a file, which may be standard output.
+    pub(crate) fn beside(self, file: &Path) -> Self {
+        Self {
+            is_beside: is_stdout(file),
+            ..self
+        }
     }
 
     /// Returns `true` if reports are JSON.
@@ -78,6 +97,9 @@ impl Output {
         }
         if self.json {
             print(&envelope(name, REPORT_VERSION, body)?)
+        } else if self.is_beside {
+            self.note(text().trim_end());
+            Ok(())
         } else if self.quiet {
             Ok(())
         } else {

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use guideway::compose::{Picture, Rendered, VectorFormat};
-use guideway::formats::{Progress, Target};
+use guideway::compose::VectorFormat;
+use guideway::formats::Target;
 use guideway::layout::{UserError, shown_path};
 
 use super::error::usage_error;
-use super::stdout::is_stdout;
+use super::output::is_stdout;
 
 /// A format of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -69,22 +69,6 @@ impl PictureFormat {
 
 /// Color of paths beside those that a picture is about, as RRGGBBAA.
 pub(crate) const OTHER_PATHS: u32 = 0xb4b4_b4ff;
-
-/// Saves a picture in a format; its pixels are those of the `cpu` method.
-///
-/// # Errors
-/// When the picture cannot be rendered, or the file cannot be written.
-pub(crate) fn save(
-    picture: &Picture,
-    format: PictureFormat,
-    path: &Path,
-    progress: &dyn Progress,
-) -> Result<Rendered, UserError> {
-    match format.vector() {
-        Some(format) => Ok(picture.save_vector(format, path)?),
-        None => Ok(picture.save_png(&*guideway::method("cpu")?, path, progress)?),
-    }
-}
 
 /// The name of a picture of a layout file: `site.png` for `halls/site.lif.json`, in the current
 /// folder.

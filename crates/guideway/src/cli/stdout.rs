@@ -1,18 +1,12 @@
 //! Standard output as the target of a file, which `-` names.
 
 use std::io::{self, IsTerminal, Write};
-use std::path::Path;
 
 use guideway::SaveError;
 use guideway::layout::UserError;
 
 use super::error::usage_error;
 use super::output::Output;
-
-/// Returns `true` if a path names standard output.
-pub(crate) fn is_stdout(path: &Path) -> bool {
-    path == Path::new("-")
-}
 
 /// Checks that standard output can take a file.
 ///

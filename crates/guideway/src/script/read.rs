@@ -1,11 +1,10 @@
 //! Reads a script: checks that each step is known and has no unknown members.
 
-use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use guideway_document::Document;
-use guideway_layout::{UserError, shown_path};
+use guideway_layout::UserError;
 use serde_json::{Map, Value};
 
 use super::error::StepError;
@@ -43,33 +42,27 @@ impl ScriptStep {
 }
 
 impl Script {
-    /// Reads and checks a script of at most `max_bytes` bytes. It names other files from its own
-    /// folder.
+    /// Reads and checks a script of at most `max_bytes` bytes. It names other files from `folder`.
     ///
     /// # Errors
-    /// When the file cannot be read, or is no script: see [`Self::from_json`].
-    pub fn read(path: &Path, max_bytes: u64) -> Result<Self, UserError> {
-        let name = shown_path(path);
-        let read = File::open(path).and_then(|file| {
-            let mut bytes = Vec::new();
-            file.take(max_bytes.saturating_add(1))
-                .read_to_end(&mut bytes)?;
-            Ok(bytes)
-        });
-        let bytes = read.map_err(|error| {
-            script_error(format!("{name}: {error}"), "Name a JSON file with steps")
-        })?;
+    /// When the source cannot be read, or is no script: see [`Self::from_json`].
+    pub fn read(
+        source: impl Read,
+        folder: impl Into<PathBuf>,
+        max_bytes: u64,
+    ) -> Result<Self, UserError> {
+        let mut bytes = Vec::new();
+        let mut source = source.take(max_bytes.saturating_add(1));
+        source
+            .read_to_end(&mut bytes)
+            .map_err(|error| script_error(error.to_string(), "Name a JSON file with steps"))?;
         if bytes.len() as u64 > max_bytes {
             return Err(script_error(
-                format!("{name}: the script has more than {max_bytes} bytes"),
+                format!("the script has more than {max_bytes} bytes"),
                 "Split it, or raise the limit with `--limit file-bytes=N`",
             ));
         }
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Self::from_json(&bytes, folder).map_err(|error| {
-            let message = format!("{name}: {}", error.message);
-            UserError { message, ..error }
-        })
+        Self::from_json(&bytes, folder)
     }
 
     /// Checks a script: `{"steps": [{"do": "rename", "node": "N7", "to": "gate"}]}`. It names other

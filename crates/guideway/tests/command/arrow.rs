@@ -12,6 +12,29 @@ fn generate(output: &Path, args: &[&str]) -> std::process::Output {
 }
 
 #[test]
+fn a_layout_that_was_lif_has_as_many_control_points_as_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let [first, lif, back] =
+        ["d1.arrow", "d1.lif.json", "back.arrow"].map(|f| folder.path().join(f));
+    assert!(generate(&first, &["d1", "--paths", "300"]).status.success());
+    for (from, to) in [(&first, &lif), (&lif, &back)] {
+        let output = command().arg("convert").arg(from).arg(to).output().unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+    let points = |file: &Path| {
+        let output = command()
+            .arg("info")
+            .arg(file)
+            .arg("--json")
+            .output()
+            .unwrap();
+        json(&output, "info")["control_points"].as_u64().unwrap()
+    };
+    assert_eq!(points(&first), 300 * 11);
+    assert_eq!(points(&back), points(&first));
+}
+
+#[test]
 fn converted_layout_has_the_same_paths() {
     let folder = tempfile::tempdir().unwrap();
     let arrow = folder.path().join("site.arrow");

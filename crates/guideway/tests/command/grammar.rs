@@ -71,6 +71,88 @@ fn dash_is_read_once_and_limits_hold() {
     );
 }
 
+/// The standard output of a command, after a check that its report went elsewhere.
+fn piped_out(out: Output, report: &str) -> Vec<u8> {
+    assert!(out.status.success(), "{}", stderr(&out));
+    assert!(stderr(&out).contains(report), "{}", stderr(&out));
+    out.stdout
+}
+
+#[test]
+fn dash_is_standard_output_of_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = site();
+    let name = site.to_str().unwrap();
+    let made = piped_out(
+        run(["generate", "d1", "--paths", "200", "-o", "-"]),
+        "200 paths",
+    );
+    let table = folder.path().join("d1.arrow");
+    fs::write(&table, made).unwrap();
+    let read = json(&run_with_input(&table, &["info", "-", "--json"]), "info");
+    assert_eq!(read["paths"], 200);
+
+    // Without --to, the format is that of the input.
+    let lif = piped_out(run(["convert", name, "-"]), "326 paths");
+    assert_eq!(lif, fs::read(&site).unwrap());
+    let steps = folder.path().join("steps.json");
+    fs::write(&steps, r#"{"steps": []}"#).unwrap();
+    let script = ["edit", name, "--script", "-", "-o", "-"];
+    assert_eq!(piped_out(run_with_input(&steps, &script), "kB"), lif);
+    let lines = r#"{"type": "LineString", "coordinates": [[0, 0], [9, 0], [9, 9]]}"#;
+    let plan = folder.path().join("plan.geojson");
+    fs::write(&plan, lines).unwrap();
+    let network = ["network", plan.to_str().unwrap(), "-o", "-", "--to", "lif"];
+    let network = piped_out(run(network), "took");
+    assert!(network.starts_with(b"{") && network.windows(7).any(|text| text == b"\"nodes\""));
+    let route = [
+        "route",
+        name,
+        "dock-1",
+        "charger-1",
+        "--vehicle-type",
+        "tugger-3000",
+    ];
+    let route = [&route[..], &["-o", "-", "--to", "geojson"]].concat();
+    let route: serde_json::Value = serde_json::from_slice(&piped_out(run(route), " m, ")).unwrap();
+    assert_eq!(route["type"], "FeatureCollection");
+
+    let png = b"\x89PNG";
+    let picture = piped_out(run(["render", name, "-o", "-", "--size", "64x64"]), "took");
+    assert!(picture.starts_with(png));
+    let changes = ["diff", name, name, "-o", "-", "--to", "svg"];
+    assert!(piped_out(run(changes), "the same").starts_with(b"<?xml"));
+    let findings = ["check", name, "--picture", "-"];
+    assert!(piped_out(run(findings), "326 paths").starts_with(png));
+
+    for (args, said) in [
+        (&["convert", name, "-", "--json"][..], "cannot hold both"),
+        (
+            &[
+                "route",
+                name,
+                "dock-1",
+                "charger-1",
+                "-o",
+                "-",
+                "--format",
+                "json",
+            ],
+            "cannot hold both",
+        ),
+        (
+            &["check", name, "--picture", "-", "--format", "sarif"],
+            "cannot hold both",
+        ),
+        (&["edit", "-", "--script", "-", "--dry-run"], "given twice"),
+    ] {
+        let out = run_with_input(&steps, args);
+        assert_eq!(out.status.code(), Some(2), "{args:?}");
+        let all = stdout(&out) + &stderr(&out);
+        assert!(all.contains(said), "{args:?}: {all}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn pipes_of_the_shell_are_files() {

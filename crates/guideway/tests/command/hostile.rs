@@ -124,10 +124,6 @@ fn dash_is_standard_output_and_no_file() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).starts_with('{') && stdout(&output).contains("nodes"));
     assert!(stderr(&output).contains("paths"));
-    assert_usage(
-        &run_in(folder.path(), &["convert", "site.lif.json", "-"]),
-        "--to",
-    );
     for args in [
         &["demo", "-o", "-"][..],
         &["man", "-"],

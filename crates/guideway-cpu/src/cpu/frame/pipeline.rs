@@ -111,7 +111,7 @@ impl FramePipeline {
         known: &mut Option<(View, Style, ToneScale)>,
     ) -> Result<u32, DrawError> {
         let ctx = target.ctx;
-        let mut tones = ToneScale::new(tone);
+        let mut tones = ToneScale::new(tone, ctx.style.background);
         if !ctx.strip.is_whole() {
             let of_picture = known.take();
             let of_picture =
@@ -141,7 +141,7 @@ impl FramePipeline {
             if ctx.strip.is_whole() {
                 tones.observe(&p.counts);
             }
-            tones.shade(&p.counts, ctx.style.background, target.frame);
+            tones.shade(&p.counts, target.frame);
         });
         *known = Some((*ctx.view, *ctx.style, tones));
         Ok(bands)

@@ -17,6 +17,7 @@ pub(crate) const FILES: &[(&str, &str)] = files![
     "cache/invalidate_lines.wgsl",
     "cache/line_blocks.wgsl",
     "cache/scroll.wgsl",
+    "composite/butt_caps.wgsl",
     "composite/composite_row.wgsl",
     "composite/layers.wgsl",
     "composite/loop_count.wgsl",

@@ -11,7 +11,7 @@ use super::clearance::ClearanceArgs;
 use super::codes::{self, FailOn};
 use super::config::Rules;
 use crate::cli::input::{self, Input};
-use crate::cli::stdout::is_stdout;
+use crate::cli::output::is_stdout;
 use crate::cli::values;
 
 #[derive(Debug, clap::Args)]
@@ -54,7 +54,7 @@ pub(crate) struct Args {
     /// Save the findings as known ones for --baseline; they do not count
     #[arg(long, value_name = "FILE")]
     pub(super) write_baseline: Option<PathBuf>,
-    /// Draw the findings of one file to a PNG, SVG or PDF file
+    /// Draw the findings of one file to a PNG, SVG or PDF file; `-` is standard output, as PNG
     #[arg(long, value_name = "FILE")]
     pub(super) picture: Option<PathBuf>,
     /// Findings to show per kind; JSON and SARIF hold more

@@ -29,7 +29,7 @@ mod table;
 use guideway::layout::{Diagnostics, Layout};
 
 pub(crate) use args::Args;
-pub(crate) use picture::save as save_picture;
+pub(crate) use picture::write as write_picture;
 pub(crate) use run::run;
 
 use self::config::Rules;

@@ -2,7 +2,6 @@
 //! gray, and a ring with the kind of the finding at each place.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 use std::sync::Arc;
 
 use guideway::compose::{Decorations, Picture, Rendered};
@@ -13,7 +12,8 @@ use guideway::spline::{Bounds, Point};
 
 use super::findings::SeverityCounts;
 use crate::cli::output::Output;
-use crate::cli::picture_file::{OTHER_PATHS, PictureFormat, save as save_picture};
+use crate::cli::picture_file::OTHER_PATHS;
+use crate::cli::picture_output::PictureOutput;
 use crate::cli::text;
 
 /// Radius of a ring and half its thickness, in points.
@@ -33,14 +33,13 @@ struct Spot {
 
 /// Draws the errors and warnings of a layout that name an element, or its notes. Everything that no
 /// finding names is gray.
-pub(crate) fn save(
+pub(crate) fn write(
     mut layout: Layout,
     found: &Diagnostics,
     name: &str,
-    path: &Path,
+    output: &PictureOutput<'_>,
     out: &Output,
 ) -> Result<Rendered, UserError> {
-    let format = PictureFormat::of_output(path, None)?;
     let progress = out.progress("drawing the findings");
     // Notes hide what is wrong, unless there is nothing else.
     let least = match found.count_at_least(Severity::Warning) {
@@ -90,7 +89,7 @@ pub(crate) fn save(
     };
     let view = picture.view()?;
     picture.overlay = rings(&spots(picture.scene.layout(), &located, &view), &view);
-    save_picture(&picture, format, path, &progress)
+    output.write(&picture, &progress)
 }
 
 fn color(severity: Severity) -> Rgba {

@@ -14,7 +14,7 @@ use super::{picture, sarif};
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input;
 use crate::cli::output::{Output, print, save};
-use crate::cli::picture_file::PictureFormat;
+use crate::cli::picture_output::PictureOutput;
 use crate::cli::progress_bar::plan;
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
@@ -34,16 +34,18 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     }
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
     input::check_stdin(&args.inputs)?;
-    if let Some(file) = &args.picture {
-        if args.inputs.len() > 1 {
-            return Err(usage_error(
-                "--picture draws the findings of one file",
-                "Check one file, such as `guideway check site.lif.json --picture site.png`",
-            ));
-        }
-        input::check_output(inputs(), file)?;
-        PictureFormat::of_output(file, None)?;
+    if args.picture.is_some() && args.inputs.len() > 1 {
+        return Err(usage_error(
+            "--picture draws the findings of one file",
+            "Check one file, such as `guideway check site.lif.json --picture site.png`",
+        ));
     }
+    // A report in a file leaves standard output to the picture.
+    let is_for_programs = out.is_json() || args.format != Format::Table;
+    let form = Output::new(is_for_programs && args.report_file().is_none(), false);
+    let picture = args.picture.as_deref();
+    let picture = picture.map(|path| PictureOutput::new(path, None, inputs(), &form));
+    let picture = picture.transpose()?;
     let (mut files, layouts, times) = checked(args, out)?;
     if let ([CheckedFile { unread, .. }], false) = (&mut files[..], args.format == Format::Sarif)
         && let Some(error) = unread.take()
@@ -59,10 +61,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         }
     }
     if let (Some(picture), [file], Some(layout)) =
-        (&args.picture, &files[..], layouts.into_iter().next())
+        (&picture, &files[..], layouts.into_iter().next())
     {
         let name = file.path.file_name().unwrap_or_default();
-        picture::save(layout, &file.found, &name.to_string_lossy(), picture, out)?;
+        picture::write(layout, &file.found, &name.to_string_lossy(), picture, out)?;
     }
     let exit = exit(&files);
     match args.format {
@@ -74,7 +76,13 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             }
         }
         Format::Json => report(args, &Output::new(true, false), &files, &times)?,
-        Format::Table => report(args, out, &files, &times)?,
+        Format::Table => {
+            let out = args
+                .picture
+                .as_deref()
+                .map_or(*out, |file| out.beside(file));
+            report(args, &out, &files, &times)?;
+        }
     }
     Ok(exit)
 }

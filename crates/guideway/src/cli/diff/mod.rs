@@ -19,6 +19,7 @@ use super::error::Exit;
 use super::input::{self, Input};
 use super::output::Output;
 use super::picture_file::PictureFormat;
+use super::picture_output::PictureOutput;
 use super::values;
 
 #[derive(Debug, clap::Args)]
@@ -37,14 +38,18 @@ pub(crate) struct Args {
     /// Form of the list; --json prints one object
     #[arg(long, value_enum, default_value_t = Form::Text)]
     form: Form,
-    /// Picture to write: removed paths in red, new ones in green, changed ones in blue
-    #[arg(long, short, value_name = "PNG|SVG")]
+    /// PNG, SVG or PDF picture to write: removed paths in red, new ones in green, changed ones in
+    /// blue. `-` is standard output
+    #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Format of the picture where the output has no extension, such as `-o - --to svg`
+    #[arg(long, value_name = "FORMAT")]
+    to: Option<PictureFormat>,
     /// Largest distance of curves and positions that count as equal
     #[arg(
         long,
         value_name = "METERS",
-        default_value = "0.000001",
+        default_value = "0.00001",
         value_parser = values::not_negative
     )]
     tolerance: f64,
@@ -67,10 +72,9 @@ enum Form {
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let files = [&args.old, &args.new].map(|input| input.path.as_path());
-    if let Some(output) = &args.output {
-        input::check_output(files, output)?;
-        PictureFormat::of_output(output, None)?;
-    }
+    let output = args.output.as_deref();
+    let picture = output.map(|path| PictureOutput::new(path, args.to, files, out));
+    let picture = picture.transpose()?;
     let (mut layouts, read_ms) = input::read_each(&[args.old.clone(), args.new.clone()], out)?;
     let new = layouts.pop().unwrap_or_default();
     let old = layouts.pop().unwrap_or_default();
@@ -81,10 +85,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     };
     let found = changes(&old, &new, &options);
     let compare_ms = progress.finish();
-    if let Some(output) = &args.output {
-        picture::write([&old, &new], &found, output, out)?;
+    if let Some(picture) = &picture {
+        picture::write([&old, &new], &found, picture, out)?;
     }
     let report = Report::new(files, &found, [read_ms, compare_ms]);
+    let out = output.map_or(*out, |output| out.beside(output));
     out.report("diff", &report.json(&found), || match args.form {
         Form::Text => report.text(&found, args.max),
         Form::Markdown => report.markdown(&found, args.max),

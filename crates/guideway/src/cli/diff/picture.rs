@@ -1,7 +1,6 @@
 //! The picture of a comparison: removed, new and changed paths in colors over the others in gray.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 use std::sync::Arc;
 
 use guideway::compose::{Decorations, Picture};
@@ -9,7 +8,8 @@ use guideway::layout::{Change, Changes, ElementKind, Layout, UserError, merge};
 use guideway::scene::{FrameSize, LineRule, Scene, SceneOptions};
 
 use crate::cli::output::Output;
-use crate::cli::picture_file::{OTHER_PATHS, PictureFormat, save};
+use crate::cli::picture_file::OTHER_PATHS;
+use crate::cli::picture_output::PictureOutput;
 
 /// Colors as RRGGBBAA, of increasing draw rank.
 const OLD_SHAPE: u32 = 0xf2b2_b2ff;
@@ -20,11 +20,11 @@ const REMOVED: u32 = 0xd627_28ff;
 const TITLE: &str =
     "red: removed, green: new, blue: changed (old shape in pale red), gray: as before";
 
-/// Draws the changes of paths to a PNG, SVG or PDF file.
+/// Draws the changes of paths.
 pub(super) fn write(
     [old, new]: [&Layout; 2],
     found: &Changes<'_>,
-    output: &Path,
+    output: &PictureOutput<'_>,
     out: &Output,
 ) -> Result<(), UserError> {
     let progress = out.progress("drawing");
@@ -44,8 +44,7 @@ pub(super) fn write(
         title: Some(TITLE.to_owned()),
         ..Decorations::default()
     };
-    let format = PictureFormat::of_output(output, None)?;
-    save(&picture, format, output, &progress)?;
+    output.write(&picture, &progress)?;
     Ok(())
 }
 

@@ -166,11 +166,19 @@ fn describe(found: &Changes<'_>, of: &ElementChange) -> String {
             let to = found.new_id(of).unwrap_or_default();
             format!("renamed to `{}`", cut(to))
         }
-        Change::Moved { distance_m } => format!("moved by {}", text::meters(distance_m)),
+        Change::Moved { distance_m } => format!("moved by {}", distance(distance_m)),
         Change::Reshaped { greatest_m } => {
-            format!("reshaped, by at most {}", text::meters(greatest_m))
+            format!("reshaped, by at most {}", distance(greatest_m))
         }
         Change::Set(_) => found.values(of).map_or_else(String::new, |of| set(&of)),
+    }
+}
+
+/// A distance, which below half a millimeter takes more digits.
+fn distance(meters: f64) -> String {
+    match meters < 0.0005 {
+        true => format!("{} mm", text::number(meters * 1000.0)),
+        false => text::meters(meters),
     }
 }
 

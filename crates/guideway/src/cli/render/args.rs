@@ -9,11 +9,11 @@ use guideway::scene::{Budget, ColorBy, Scene, SceneOptions, Shading, Style};
 
 use super::decoration_args::DecorationArgs;
 use super::style_args::StyleArgs;
-use super::target::Target;
 use super::view_args::ViewArgs;
 use crate::cli::error::usage_error;
 use crate::cli::input::{Input, PLACEMENT_HELP, check_output};
 use crate::cli::picture_file::{PictureFormat, default_name};
+use crate::cli::picture_output::PictureOutput;
 use crate::cli::values;
 
 #[derive(Debug, clap::Args)]
@@ -108,18 +108,21 @@ impl Args {
     ///
     /// # Errors
     /// When the output is no PNG file.
-    pub(super) fn world_file(&self, target: &Target<'_>) -> Result<Option<PathBuf>, UserError> {
+    pub(super) fn world_file(
+        &self,
+        output: &PictureOutput<'_>,
+    ) -> Result<Option<PathBuf>, UserError> {
         if !self.world_file {
             return Ok(None);
         }
-        let output = target.file.filter(|_| target.format == PictureFormat::Png);
-        let Some(output) = output else {
+        let file = output.file.filter(|_| output.format == PictureFormat::Png);
+        let Some(file) = file else {
             return Err(usage_error(
                 "--world-file places a PNG file",
                 "Write one, such as `-o site.png --world-file`",
             ));
         };
-        let file = output.with_extension("pgw");
+        let file = file.with_extension("pgw");
         check_output(self.files(), &file)?;
         Ok(Some(file))
     }

@@ -4,7 +4,6 @@
 //! |---|---|
 //! | `args` | files, output and the groups of options below |
 //! | `view_args`, `style_args`, `decoration_args` | one group of options each |
-//! | `target` | the output: a file or standard output |
 //! | `view_notes` | notes on what a view does not show |
 //! | `report` | the report as text and JSON |
 //! | `run` | reads, composes, reports |
@@ -14,7 +13,6 @@ mod decoration_args;
 mod report;
 mod run;
 mod style_args;
-mod target;
 mod view_args;
 mod view_notes;
 

@@ -9,8 +9,9 @@ use guideway::scene::{Clock, FrameSize, Legend, Scene};
 use serde_json::{Value, json};
 
 use super::args::Args;
+use crate::cli::output::is_stdout;
 use crate::cli::route::FoundRoute;
-use crate::cli::{envelope, input, stdout, text};
+use crate::cli::{envelope, input, text};
 
 /// Duration of each step, in milliseconds.
 pub(super) struct Times {
@@ -44,7 +45,7 @@ pub(super) fn text(path: &Path, shown: &Shown<'_>, times: &Times) -> String {
         route,
     } = *shown;
     let mut text = String::new();
-    if !stdout::is_stdout(path) {
+    if !is_stdout(path) {
         text += &format!(
             "{}: {} x {} pixels\n",
             shown_path(path),

@@ -11,12 +11,12 @@ use guideway::scene::{Method, Scene, SceneOptions, Shading, elapsed_ms};
 
 use super::args::Args;
 use super::report::{self, Shown, Times};
-use super::target::Target;
 use super::view_notes::view_notes;
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::output::Output;
+use crate::cli::picture_output::PictureOutput;
 use crate::cli::progress_bar::plan;
-use crate::cli::{floor_plan, input, output, stdout};
+use crate::cli::{floor_plan, input, output};
 
 /// The maker of the picture.
 enum Renderer {
@@ -27,10 +27,7 @@ enum Renderer {
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let mut options = args.options()?;
     let output_file = args.output()?;
-    let target = Target::new(&output_file, args.to, out)?;
-    if let Some(path) = target.file {
-        input::check_output(args.files(), path)?;
-    }
+    let target = PictureOutput::new(&output_file, args.to, args.files(), out)?;
     let world_file = args.world_file(&target)?;
     // Before a large file is read: an unknown method is an error of the arguments.
     let renderer = match target.format.vector() {
@@ -145,11 +142,7 @@ fn print_report(
     times: &Times,
     out: &Output,
 ) -> Result<(), UserError> {
-    let text = || report::text(output, shown, times);
-    if stdout::is_stdout(output) {
-        out.note(text().trim_end());
-        return Ok(());
-    }
     let body = report::json(args, output, shown, times);
-    out.report("render", &body, text)
+    let out = out.beside(output);
+    out.report("render", &body, || report::text(output, shown, times))
 }

@@ -3,15 +3,16 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use guideway::formats::Target;
 use guideway::layout::{Layout, UserError};
 use guideway::network::{Route, RouteOptions, Router};
 use serde_json::{Value, json};
 
 use super::ends::only_type;
 use super::geojson;
-use crate::cli::convert::{target_to_save, write};
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::{self, Input};
+use crate::cli::layout_output::{LayoutOutput, target_parser};
 use crate::cli::output::{Output, print};
 use crate::cli::{text, values};
 
@@ -30,9 +31,13 @@ pub(crate) struct Args {
     /// Form of the route: a list, JSON (the same as --json), or GeoJSON with a line per path
     #[arg(long, default_value = "list")]
     format: Format,
-    /// Also write the route: GeoJSON, an order of VDA 5050 (.vda5050.json), or any other format
+    /// Also write the route: GeoJSON, an order of VDA 5050 (.vda5050.json), or any other format.
+    /// `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Format of the file, in place of that of its extension
+    #[arg(long = "to", value_name = "FORMAT", value_parser = target_parser())]
+    output_format: Option<Target>,
     /// Speed on paths without a limit, in m/s [default: 1]
     #[arg(long, value_name = "SPEED", value_parser = values::positive, allow_hyphen_values = true)]
     speed: Option<f64>,
@@ -71,9 +76,12 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "Omit --json",
         ));
     }
-    if let Some(output) = &args.output {
-        input::check_output([args.input.path.as_path()], output)?;
-    }
+    let form = Output::new(out.is_json() || args.format != Format::List, false);
+    let output = args.output.as_deref().map(|path| {
+        let inputs = [args.input.path.as_path()];
+        LayoutOutput::new(path, args.output_format, inputs, &form)
+    });
+    let output = output.transpose()?;
     let (layout, read_ms) = input::read_all(std::slice::from_ref(&args.input), out)?;
     let progress = out.progress("searching");
     let vehicle_type = args.vehicle_type.as_deref().or_else(|| only_type(&layout));
@@ -82,10 +90,9 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let progress = out.progress("searching");
     let route = router.route(&router.place(&args.from)?, &router.place(&args.to)?)?;
     let search_ms = progress.finish();
-    if let Some(output) = &args.output {
+    if let Some(output) = &output {
         let route = route.layout(&layout);
-        let progress = out.progress("writing the route");
-        write(target_to_save(&route, output)?, &route, output, &progress)?;
+        output.write(&route, output.target(&route)?, out)?;
     }
     let body = json!({
         "file": args.input.path.to_string_lossy(),
@@ -103,7 +110,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     });
     let list = || table(args, &layout, &route);
     match args.format {
-        Format::List => out.report("route", &body, list)?,
+        Format::List => {
+            let out = args.output.as_deref().map_or(*out, |file| out.beside(file));
+            out.report("route", &body, list)?;
+        }
         Format::Json => Output::new(true, false).report("route", &body, list)?,
         Format::Geojson => print(&geojson::bytes(&layout, &route)?)?,
     }

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use guideway::formats::{Loss, WriteError};
-use guideway::layout::{Layout, UserError};
+use guideway::formats::{Loss, Target, WriteError};
+use guideway::layout::{Layout, UserError, shown_path};
 use guideway::{SaveError, replace_file};
 use guideway_viewer::{LostPart, Saved};
 
-use crate::cli::convert;
+use crate::cli::layout_output::{target_to_save, write_into};
 
 /// Why no file replaced the old one.
 enum Unsaved {
@@ -33,9 +33,9 @@ pub(super) fn save(
     path: &Path,
     accepts: &dyn Fn(&[LostPart]) -> bool,
 ) -> Result<Saved, UserError> {
-    let target = convert::target_to_save(layout, path)?;
+    let target = target_to_save(layout, path)?;
     let written = replace_file(path, |file| {
-        let losses = convert::write_into(file, target, layout, path)?;
+        let losses = write_into(file, target, layout, path)?;
         let losses: Vec<LostPart> = losses.iter().map(lost_part).collect();
         match losses.is_empty() || accepts(&losses) {
             true => Ok(losses),
@@ -55,6 +55,36 @@ fn lost_part(loss: &Loss) -> LostPart {
         count: loss.count,
         detail: loss.detail.clone(),
     }
+}
+
+/// Rejects saving a layout over its source if the source may hold more than the layout.
+pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserError> {
+    let refused = layout.refused.len();
+    let target = target_to_save(layout, file)?;
+    let would_lose = match target {
+        _ if target.is_drawing() => "is a drawing: saving would keep only the paths".to_owned(),
+        // Other XML formats and older versions of openTCS have the same extension.
+        Target::OpenTcs6 | Target::OpenTcs7 if Target::of_source(layout) != Some(target) => {
+            format!("is no {}", target.name())
+        }
+        Target::GeoJson
+        | Target::Nav2
+        | Target::Rmf
+        | Target::OpenTcs6
+        | Target::OpenTcs7
+        | Target::Vda2
+        | Target::Vda3
+            if refused > 0 =>
+        {
+            format!("has {refused} refused paths, which saving would drop")
+        }
+        _ => return Ok(()),
+    };
+    Err(UserError::new(
+        "target-format",
+        format!("{} {would_lose}", shown_path(file)),
+        "Save the layout under another name",
+    ))
 }
 
 #[cfg(test)]
@@ -91,5 +121,55 @@ mod tests {
         // A format that holds everything asks nothing.
         let outcome = save(&layout, &path.with_extension("lif.json"), &refuse);
         assert_eq!(outcome.unwrap(), Saved::Written(Vec::new()));
+    }
+
+    fn read_from(format: &str, version: &str) -> Layout {
+        let mut layout = Layout::default();
+        layout.provenance.format = format.into();
+        layout.provenance.format_version = version.into();
+        layout
+    }
+
+    #[test]
+    fn saves_in_the_format_of_the_source() {
+        use Target::{Arrow, GeoJson, Lif1, Lif2, Nav2, OpenTcs6, OpenTcs7, Rmf, Vda2, Vda3};
+        for (format, version, name, target) in [
+            ("LIF", "1.0", "a.lif.json", Some(Lif1)),
+            ("LIF", "2.0", "a.lif.json", Some(Lif2)),
+            ("LIF", "2.0", "site.json", Some(Lif2)),
+            ("LIF", "2.0", "a.arrow", Some(Arrow)),
+            ("GeoJSON", "", "roads.json", Some(GeoJson)),
+            ("GeoJSON", "", "roads.lif.json", Some(Lif1)),
+            ("GeoJSON", "Nav2 route graph", "graph.geojson", Some(Nav2)),
+            ("GeoJSON", "Nav2 route graph", "graph.json", Some(Nav2)),
+            ("Open-RMF", "navigation graph", "0.yaml", Some(Rmf)),
+            ("Open-RMF", "building", "office.building.yaml", None),
+            ("VDA 5050", "2.0", "order.json", Some(Vda2)),
+            ("VDA 5050", "3.0", "order.json", Some(Vda3)),
+            ("VDA 5050", "3.0", "a.vda5050.json", Some(Vda3)),
+            ("openTCS", "6.0.0", "plant.xml", Some(OpenTcs6)),
+            ("openTCS", "7.0.0", "plant.xml", Some(OpenTcs7)),
+            ("LIF", "1.0", "site.txt", None),
+        ] {
+            let layout = read_from(format, version);
+            let saved = target_to_save(&layout, Path::new(name));
+            assert_eq!(saved.ok(), target, "{format} {version} as {name}");
+            let in_place = check_in_place(&layout, Path::new(name));
+            assert_eq!(in_place.is_ok(), target.is_some(), "{name}");
+        }
+        for (format, version) in [("openTCS", "0.0.2"), ("OpenDRIVE", "1.6")] {
+            let layout = read_from(format, version);
+            let saved = target_to_save(&layout, Path::new("map.xml"));
+            assert_eq!(saved.ok(), Some(OpenTcs7));
+            let rejected = check_in_place(&layout, Path::new("map.xml"));
+            assert!(rejected.unwrap_err().message.contains("no openTCS 7.0.0"));
+        }
+        let drawing = read_from("DXF", "AC1015");
+        let rejected = check_in_place(&drawing, Path::new("plan.dxf"));
+        assert!(rejected.unwrap_err().message.contains("only the paths"));
+        assert_eq!(
+            target_to_save(&drawing, Path::new("b.dxf")).ok(),
+            Some(Target::Dxf)
+        );
     }
 }

@@ -20,7 +20,6 @@ use guideway_viewer::{
 };
 
 use super::{file_dialog, project_file, save};
-use crate::cli::convert;
 use crate::cli::demo;
 use crate::cli::error::usage_error;
 use crate::cli::floor_plan;
@@ -65,7 +64,7 @@ impl AppServices for CliServices {
     }
 
     fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
-        convert::check_in_place(layout, file)
+        save::check_in_place(layout, file)
     }
 
     fn save_layout(

@@ -1,4 +1,4 @@
-//! Output of `render`: a file or standard output, as PNG, SVG or PDF.
+//! Output of a picture: a file or standard output, as PNG, SVG or PDF.
 
 use std::path::Path;
 
@@ -8,43 +8,64 @@ use guideway::layout::UserError;
 use guideway::scene::Method;
 use guideway::write_png_by;
 
-use crate::cli::output::Output;
-use crate::cli::picture_file::PictureFormat;
-use crate::cli::stdout::{self, Stdout};
+use super::input::check_output;
+use super::output::{Output, is_stdout};
+use super::picture_file::PictureFormat;
+use super::stdout::{self, Stdout};
 
 /// The output of a picture.
-pub(super) struct Target<'a> {
+#[derive(Clone, Copy)]
+pub(crate) struct PictureOutput<'a> {
     /// The file; `None` for standard output.
-    pub(super) file: Option<&'a Path>,
-    pub(super) format: PictureFormat,
+    pub(crate) file: Option<&'a Path>,
+    pub(crate) format: PictureFormat,
 }
 
-impl<'a> Target<'a> {
-    /// The output that `-o` and `--to` name.
+impl<'a> PictureOutput<'a> {
+    /// The output that a path and `--to` name. Checked before any long work.
     ///
     /// # Errors
-    /// When standard output is a terminal or takes the JSON report, or the extension of the file is
-    /// not that of a picture.
-    pub(super) fn new(
+    /// When standard output is a terminal or takes the JSON report, the extension of the file is
+    /// not that of a picture, or the file cannot be written or is an input.
+    pub(crate) fn new<'i>(
         path: &'a Path,
         to: Option<PictureFormat>,
+        inputs: impl IntoIterator<Item = &'i Path>,
         out: &Output,
     ) -> Result<Self, UserError> {
         let format = PictureFormat::of_output(path, to)?;
-        let file = (!stdout::is_stdout(path)).then_some(path);
-        if file.is_none() {
-            let binary = match format {
-                PictureFormat::Png => Some("PNG"),
-                PictureFormat::Pdf => Some("PDF"),
-                PictureFormat::Svg => None,
-            };
-            stdout::check(out, binary)?;
+        let file = (!is_stdout(path)).then_some(path);
+        match file {
+            Some(file) => check_output(inputs, file)?,
+            None => {
+                let binary = match format {
+                    PictureFormat::Png => Some("PNG"),
+                    PictureFormat::Pdf => Some("PDF"),
+                    PictureFormat::Svg => None,
+                };
+                stdout::check(out, binary)?;
+            }
         }
         Ok(Self { file, format })
     }
 
+    /// Renders a picture; its pixels are those of the `cpu` method.
+    ///
+    /// # Errors
+    /// When the picture cannot be rendered, or the output fails.
+    pub(crate) fn write(
+        &self,
+        picture: &Picture,
+        progress: &dyn Progress,
+    ) -> Result<Rendered, UserError> {
+        match self.format.vector() {
+            Some(format) => Ok(self.write_vector(picture, format)?),
+            None => Ok(self.write_png(picture, &*guideway::method("cpu")?, progress)?),
+        }
+    }
+
     /// Renders a picture as PNG.
-    pub(super) fn write_png(
+    pub(crate) fn write_png(
         &self,
         picture: &Picture,
         method: &dyn Method,
@@ -62,7 +83,7 @@ impl<'a> Target<'a> {
     }
 
     /// Writes a picture as curves.
-    pub(super) fn write_vector(
+    pub(crate) fn write_vector(
         &self,
         picture: &Picture,
         format: VectorFormat,
