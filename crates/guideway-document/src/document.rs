@@ -9,9 +9,9 @@ use guideway_scene::{
 use guideway_spline::{Bounds, Point};
 
 use crate::PathSet;
-use crate::edit_observer::EditObserver;
+use crate::edit_observer::{EditObserver, SceneChange};
 use crate::elements::Elements;
-use crate::history::History;
+use crate::history::{History, Preview};
 use crate::index::Index;
 use crate::journal::JournalEntry;
 use crate::pick::{Hit, pick};
@@ -35,6 +35,10 @@ pub struct Document {
     pub(crate) journal_entries: Vec<JournalEntry>,
     /// Incremented by every visible change.
     pub(crate) revision: u64,
+    /// Incremented by every change of values.
+    pub(crate) values_revision: u64,
+    /// An edit that is shown, but does not count.
+    pub(crate) preview: Option<Preview>,
 }
 
 impl Document {
@@ -49,7 +53,7 @@ impl Document {
     /// A document of a scene.
     pub fn from_scene(scene: Scene) -> Self {
         Self {
-            index: Index::new(scene.layout()),
+            index: Index::of_scene(&scene),
             scene,
             selection: Arc::default(),
             level: None,
@@ -58,6 +62,8 @@ impl Document {
             observer: EditObserver::default(),
             journal_entries: Vec::new(),
             revision: 0,
+            values_revision: 0,
+            preview: None,
         }
     }
 
@@ -104,9 +110,9 @@ impl Document {
         self.layout().station_position_m(station)
     }
 
-    /// Sets the observer of scene edits. It is called in order, once per edit, after the edit is
+    /// Sets the observer of the scene. It is called in order, once per edit, after the edit is
     /// accepted and before it is applied here. A renderer that applies them shows this scene.
-    pub fn on_edit(&mut self, observer: impl Fn(&Edit) + Send + Sync + 'static) {
+    pub fn on_edit(&mut self, observer: impl Fn(SceneChange<'_>) + Send + Sync + 'static) {
         self.observer = EditObserver::new(observer);
     }
 
@@ -118,6 +124,12 @@ impl Document {
     /// A number that differs after every visible change, including changes of the selection.
     pub fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// A number that differs after every change of properties, which may change the colors of a
+    /// scene that a column colors.
+    pub fn values_revision(&self) -> u64 {
+        self.values_revision
     }
 
     /// Replaces the shared layout by an unshared copy. See [`Scene::adopt_copy`].

@@ -1,23 +1,36 @@
-//! Edit observer: a callback that receives each accepted edit of a document's scene.
+//! Edit observer: a callback that receives each change of a document's scene.
 
 use std::fmt;
 
-use guideway_scene::Edit;
+use guideway_scene::{Edit, Scene};
+
+/// A change of a scene, for those who keep another one of the same content.
+#[derive(Clone, Copy, Debug)]
+pub enum SceneChange<'a> {
+    /// An accepted edit, before it is applied.
+    Edit(&'a Edit),
+    /// The scene lost its last rows, which no edit does: this is the whole of it.
+    Replaced(&'a Scene),
+}
 
 /// The callback of [`Document::on_edit`](crate::Document::on_edit), if one is set.
 #[derive(Default)]
 pub(crate) struct EditObserver(Option<Box<Callback>>);
 
-type Callback = dyn Fn(&Edit) + Send + Sync;
+type Callback = dyn Fn(SceneChange<'_>) + Send + Sync;
 
 impl EditObserver {
-    pub(crate) fn new(callback: impl Fn(&Edit) + Send + Sync + 'static) -> Self {
+    pub(crate) fn new(callback: impl Fn(SceneChange<'_>) + Send + Sync + 'static) -> Self {
         Self(Some(Box::new(callback)))
     }
 
     pub(crate) fn notify(&self, edit: &Edit) {
+        self.notify_change(SceneChange::Edit(edit));
+    }
+
+    pub(crate) fn notify_change(&self, change: SceneChange<'_>) {
         if let Some(callback) = &self.0 {
-            callback(edit);
+            callback(change);
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use crate::change::Change;
+use crate::change::{Change, CopiesOf};
 use crate::elements::Elements;
 
 /// Steps that can be undone and redone.
@@ -28,8 +28,50 @@ pub struct SavedState(u64);
 pub(crate) struct Step {
     pub(crate) name: &'static str,
     pub(crate) number: u64,
-    pub(crate) changes: Vec<Change>,
+    pub(crate) changes: Vec<StepChange>,
     pub(crate) selection: Arc<Elements>,
+}
+
+/// The steps of an edit that is shown, but does not count.
+#[derive(Debug)]
+pub(crate) struct Preview {
+    pub(crate) steps: Vec<Step>,
+    /// Numbers of rows before it.
+    pub(crate) rows: [usize; 3],
+}
+
+/// A part of a step.
+#[derive(Clone, Debug)]
+pub(crate) enum StepChange {
+    Change(Change),
+    /// Removes copies for good: redoing copies again.
+    RemoveCopies(CopiedRows),
+}
+
+/// Copies, and the rows of each table before and after them.
+#[derive(Clone, Debug)]
+pub(crate) struct CopiedRows {
+    pub(crate) of: CopiesOf,
+    pub(crate) first: [usize; 3],
+    pub(crate) end: [usize; 3],
+}
+
+impl CopiedRows {
+    /// Returns `true` if an eighth of all rows are copies, so that dropping them costs no more than
+    /// copying did.
+    pub(crate) fn are_many(&self) -> bool {
+        let [first, end]: [usize; 2] = [self.first, self.end].map(|rows| rows.iter().sum());
+        8 * (end - first) >= end
+    }
+}
+
+impl StepChange {
+    fn heap_bytes(&self) -> usize {
+        match self {
+            Self::Change(change) => change.heap_bytes(),
+            Self::RemoveCopies(copied) => size_of::<Self>() + copied.of.elements.heap_bytes(),
+        }
+    }
 }
 
 impl History {
@@ -37,7 +79,7 @@ impl History {
     pub(crate) fn push(
         &mut self,
         name: &'static str,
-        inverse: Vec<Change>,
+        inverse: Vec<StepChange>,
         selection: Arc<Elements>,
     ) {
         self.newest += 1;
@@ -76,7 +118,7 @@ impl History {
         let steps = self.done.iter().chain(&self.undone);
         steps
             .map(|step| {
-                let changes: usize = step.changes.iter().map(Change::heap_bytes).sum();
+                let changes: usize = step.changes.iter().map(StepChange::heap_bytes).sum();
                 // Consecutive steps usually share one selection.
                 let is_new = counted.insert(Arc::as_ptr(&step.selection));
                 let selection = if is_new {

@@ -43,6 +43,7 @@ pub use edit::{
     NewCells, NewEdge, OperationError, PointRef, PropertyRef, PropertyValues, Shape, ShapeError,
     TypeUse, Welded, drawn_path,
 };
+pub use edit_observer::SceneChange;
 pub use element::Element;
 pub use elements::Elements;
 pub use fixes::{Fix, FixError, ProposedFix, fix_all, fixes, has_fixes};

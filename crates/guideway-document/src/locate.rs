@@ -46,9 +46,13 @@ impl Document {
         self.scene.exists(of, row)
     }
 
-    /// Bounding box of an element, in meters; `None` for a path without a curve and for a station
-    /// without a position.
+    /// Bounding box of an element, in meters; `None` for one that has no row, for a path without a
+    /// curve and for a station without a position.
     pub fn bounds_of(&self, element: Element) -> Option<Bounds<f64>> {
+        let (of, row) = element.table_row();
+        if row as usize >= of.row_count(self.layout()) {
+            return None;
+        }
         let at = match element {
             Element::Path(path) => return self.index.path_bounds(path),
             Element::Node(node) => self.node_position_m(node),

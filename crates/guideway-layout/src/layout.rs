@@ -158,6 +158,33 @@ impl Layout {
         }
     }
 
+    /// A copy with the first rows of paths, nodes and stations, in no more memory than they need.
+    /// Paths and stations lose their references to nodes beyond them; blocks are copied as they
+    /// are.
+    ///
+    /// # Panics
+    /// When a table has fewer rows.
+    #[must_use]
+    pub fn first_rows(&self, [paths, nodes, stations]: [usize; 3]) -> Self {
+        let rows = |count: usize| (0..count).collect::<Vec<_>>();
+        let node = |row: u32| ((row as usize) < nodes).then_some(row);
+        Self {
+            provenance: self.provenance.clone(),
+            paths: self.paths.select(&rows(paths), node),
+            refused: self.refused.clone(),
+            nodes: self.nodes.select(&rows(nodes)),
+            stations: self.stations.select(&rows(stations), node),
+            levels: self.levels.clone(),
+            vehicle_types: self.vehicle_types.clone(),
+            blocks: self.blocks.clone(),
+            zones: self.zones.clone(),
+            notes: self.notes.clone(),
+            attributes: self.attributes.clone(),
+            geo_origin: self.geo_origin,
+            diagnostics: self.diagnostics.clone(),
+        }
+    }
+
     /// Returns `true` if the layout is a drawing that is no network yet: lines without a direction.
     pub fn is_drawing(&self) -> bool {
         self.nodes.is_empty() && self.provenance.is_all_of(&DRAWING_FORMATS)

@@ -10,7 +10,7 @@ use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, S
 use serde::{Deserialize, Serialize};
 
 use crate::language::Language;
-use crate::speed_unit::SpeedUnit;
+use crate::units::{LengthUnit, SpeedUnit, Units};
 
 /// Greatest width of paths without a width of their own, in meters.
 pub(crate) const MAX_WIDTH_M: f64 = 2.0;
@@ -63,6 +63,8 @@ pub(crate) struct DisplaySettings {
     pub(crate) language: Option<Language>,
     /// Unit of the speeds that are shown and typed.
     pub(crate) speed_unit: SpeedUnit,
+    /// Unit of the lengths among the properties.
+    pub(crate) length_unit: LengthUnit,
 }
 
 impl Default for DisplaySettings {
@@ -83,6 +85,7 @@ impl Default for DisplaySettings {
             uses_desktop_dialogs: true,
             language: None,
             speed_unit: SpeedUnit::default(),
+            length_unit: LengthUnit::default(),
         }
     }
 }
@@ -99,6 +102,14 @@ impl DisplaySettings {
         }
         self.grid_step_m = self.grid_step_m.filter(|step| GRID_STEPS_M.contains(step));
         self
+    }
+
+    /// The units of values.
+    pub(crate) fn units(&self) -> Units {
+        Units {
+            speed: self.speed_unit,
+            length: self.length_unit,
+        }
     }
 
     /// Turns the theme around, for good.

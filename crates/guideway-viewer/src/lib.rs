@@ -16,7 +16,7 @@
 //! | tools | pointer tools and gestures | `tools` |
 //! | selection | search, exact edits, selection commands, copied elements | `selection` |
 //! | language | English texts, and German ones beside them | `language` |
-//! | speed unit | the unit in which speeds are shown and typed | `speed_unit` |
+//! | units | the units in which speeds and lengths are shown and typed | `units` |
 //! | canvas | camera, input, painting, decorations | `canvas` |
 //! | export | pictures for files and clipboard | `export` |
 //! | preferences | what outlives a run | `preferences` |
@@ -49,10 +49,10 @@ mod render_queue;
 mod route;
 mod selection;
 mod services;
-mod speed_unit;
 #[cfg(test)]
 mod tests;
 mod tools;
+mod units;
 mod window;
 mod window_icon;
 

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, mpsc};
 
-use guideway_document::{Document, replay};
+use guideway_document::{Document, SceneChange, replay};
 use guideway_layout::{CheckOptions, Direction, Layout, NewPath, Value, check};
 use guideway_scene::SceneOptions;
 use guideway_spline::{Point, Runs};
@@ -18,13 +18,21 @@ pub fn journal(bytes: &[u8]) {
     let untouched = document.to_layout().paths.len();
     let mut replica = document.scene().clone();
     let (tell, told) = mpsc::channel();
-    document.on_edit(move |edit| tell.send(edit.clone()).expect("it is heard below"));
+    document.on_edit(move |change| {
+        let change = match change {
+            SceneChange::Edit(edit) => Ok(edit.clone()),
+            SceneChange::Replaced(scene) => Err(scene.clone()),
+        };
+        tell.send(change).expect("it is heard below");
+    });
     let journal = with_checksums(bytes);
     let done = replay(&journal, &mut document, |_| true);
     assert!(done.bytes <= journal.len());
-    for edit in told.try_iter() {
-        let followed = replica.edit(&edit);
-        assert!(followed.is_ok(), "{followed:?}");
+    for change in told.try_iter() {
+        match change {
+            Ok(edit) => assert!(replica.edit(&edit).is_ok(), "{edit:?}"),
+            Err(scene) => replica = scene,
+        }
     }
     assert_eq!(replica.draw_order(), document.scene().draw_order());
     let layout = document.to_layout();

@@ -124,6 +124,36 @@ impl Document {
         Ok(row)
     }
 
+    /// Sets the nodes that serve a station, by their identifiers. A station without a position of
+    /// its own stays where it is.
+    ///
+    /// # Errors
+    /// When the station does not exist, or no node has an identifier.
+    pub fn set_station_nodes(&mut self, station: u32, ids: &[&str]) -> Result<(), OperationError> {
+        self.check_rows_exist(Table::Stations, &[station].into_iter().collect())?;
+        let layout = self.layout();
+        let mut rows = vec![None; ids.len()];
+        for node in self.existing(Table::Nodes) {
+            let places = ids.iter().zip(&mut rows);
+            let named = places.filter(|(id, _)| **id == layout.nodes.id(node));
+            named.for_each(|(_, row)| *row = Some(node));
+        }
+        let unknown = rows.iter().zip(ids).find(|(row, _)| row.is_none());
+        if let Some((_, id)) = unknown {
+            let node = (*id).to_owned();
+            return Err(OperationError::UnknownNode { node });
+        }
+        let nodes: Box<[u32]> = rows.into_iter().flatten().collect();
+        let placed = layout.stations.position_m(station);
+        let at_m = self
+            .station_position_m(station)
+            .filter(|_| placed.is_none());
+        let place = at_m.map(|at_m| TableEdit::MoveStations([(station, Some(at_m))].into()).into());
+        let set = TableEdit::SetStationNodes([(station, nodes)].into()).into();
+        let changes = place.into_iter().chain([set]).collect();
+        Ok(self.perform("set nodes of station", changes)?)
+    }
+
     /// The given name, if it is free, or a free one that begins with `wanted`.
     fn new_name(
         &self,

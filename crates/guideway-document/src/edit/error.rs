@@ -22,6 +22,12 @@ pub enum OperationError {
         /// `path`, `node` or `station`.
         what: &'static str,
     },
+    /// No node has the identifier.
+    #[error("no node is called `{node}`; Find lists the names that there are")]
+    UnknownNode {
+        /// The requested identifier.
+        node: String,
+    },
     /// A value does not fit its property.
     #[error("`{property}` takes {expected}, not `{value}`")]
     WrongValue {

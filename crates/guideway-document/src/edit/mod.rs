@@ -11,6 +11,7 @@
 //! | `curves`, `lengths`, `names`, `property_value`, `elements`, `error` | | parts of the above |
 //! | `shapes` | paths, nodes, radii | paths that are split, joined, welded, aligned, rounded |
 //! | `perform` | [`Change`](crate::Change)s | the changed document and an undoable step |
+//! | `preview` | an edit | what it does, until it is taken back |
 
 mod cells;
 mod clip;
@@ -29,6 +30,7 @@ mod node_moves;
 mod paste;
 mod perform;
 mod points;
+mod preview;
 mod properties;
 mod property_value;
 mod rename;

@@ -10,7 +10,9 @@ use guideway_spline::{Point, Runs};
 use super::curves::geometry_of;
 use crate::change::{Change, NodeMoves};
 use crate::document::Document;
-use crate::history::{SavedState, Step};
+use crate::edit_observer::SceneChange;
+use crate::history::{CopiedRows, Preview, SavedState, Step, StepChange};
+use crate::index::Index;
 use crate::journal::JournalEntry;
 
 impl Document {
@@ -24,7 +26,8 @@ impl Document {
         }
         let selection = Arc::clone(&self.selection);
         let rows = self.row_counts();
-        let inverse = match self.apply(&changes) {
+        let steps = changes.iter().cloned().map(StepChange::Change);
+        let inverse = match self.apply(steps.collect()) {
             Ok(inverse) => inverse,
             Err(error) => {
                 if self.row_counts() != rows {
@@ -38,8 +41,21 @@ impl Document {
         Ok(())
     }
 
+    /// Takes the preview back, if there is one.
+    pub fn end_preview(&mut self) {
+        if let Some(Preview { steps, rows }) = self.preview.take() {
+            for step in steps.into_iter().rev() {
+                self.invert(step);
+            }
+            if self.row_counts() != rows {
+                self.drop_rows(rows);
+            }
+        }
+    }
+
     /// Undoes the last step and returns its name; `None` without one.
     pub fn undo(&mut self) -> Option<&'static str> {
+        self.end_preview();
         let step = self.history.done.pop()?;
         self.journal_entries.push(JournalEntry::Undo);
         let (name, undone) = self.invert(step);
@@ -49,6 +65,7 @@ impl Document {
 
     /// Redoes the last undone step and returns its name; `None` without one.
     pub fn redo(&mut self) -> Option<&'static str> {
+        self.end_preview();
         let step = self.history.undone.pop()?;
         self.journal_entries.push(JournalEntry::Redo);
         let (name, done) = self.invert(step);
@@ -90,9 +107,14 @@ impl Document {
     /// Applies the changes of a step and returns its name and inverse.
     fn invert(&mut self, step: Step) -> (&'static str, Option<Step>) {
         let selection = std::mem::replace(&mut self.selection, step.selection);
+        let Step {
+            name,
+            number,
+            changes,
+            ..
+        } = step;
         // The changes were recorded in exactly this state, so none is rejected.
-        let inverse = self.apply(&step.changes).ok();
-        let Step { name, number, .. } = step;
+        let inverse = self.apply(changes).ok();
         let step = inverse.map(|changes| Step {
             name,
             number,
@@ -103,34 +125,86 @@ impl Document {
     }
 
     /// Applies all changes or none. Returns the inverse changes, in the order to apply them.
-    fn apply(&mut self, changes: &[Change]) -> Result<Vec<Change>, EditError> {
+    fn apply(&mut self, changes: Vec<StepChange>) -> Result<Vec<StepChange>, EditError> {
         self.revision += 1;
         let mut inverse = Vec::new();
-        let applied = changes
-            .iter()
-            .try_for_each(|change| self.apply_change(change, &mut inverse));
-        if let Err(error) = applied {
-            for undo in inverse.iter().rev() {
-                self.edit_scene(undo)?;
+        for change in changes {
+            if let Err(error) = self.apply_one(change, &mut inverse) {
+                for undo in inverse.into_iter().rev() {
+                    self.apply_one(undo, &mut Vec::new())?;
+                }
+                return Err(error);
             }
-            return Err(error);
         }
         self.deselect_hidden();
-        Ok(inverse.into_iter().rev().map(Change::Scene).collect())
+        inverse.reverse();
+        Ok(inverse)
     }
 
-    /// Applies a change, and appends the inverse of each of its edits that was performed.
-    fn apply_change(&mut self, change: &Change, inverse: &mut Vec<Edit>) -> Result<(), EditError> {
-        if let Change::Copy(copies) = change {
-            self.check_copies(copies)?;
+    /// Applies a change and adds to `inverse` what takes it back, also of one rejected halfway.
+    fn apply_one(
+        &mut self,
+        change: StepChange,
+        inverse: &mut Vec<StepChange>,
+    ) -> Result<(), EditError> {
+        match change {
+            StepChange::Change(change) => {
+                if let Change::Copy(of) = &change {
+                    self.check_copies(of)?;
+                }
+                let (first, before) = (self.row_counts(), inverse.len());
+                self.apply_edits(self.edits_of(&change), inverse)?;
+                if let Change::Copy(of) = change {
+                    let end = self.row_counts();
+                    let copied = CopiedRows { of, first, end };
+                    if copied.are_many() {
+                        inverse.truncate(before);
+                        inverse.push(StepChange::RemoveCopies(copied));
+                    }
+                }
+                Ok(())
+            }
+            StepChange::RemoveCopies(copied) if self.row_counts() == copied.end => {
+                self.drop_rows(copied.first);
+                inverse.push(StepChange::Change(Change::Copy(copied.of)));
+                Ok(())
+            }
+            // Undone steps need the rows behind those of the copies.
+            StepChange::RemoveCopies(copied) => {
+                let rows = |at: usize| copied.first[at] as u32..copied.end[at] as u32;
+                let places = [(1, Table::Nodes), (2, Table::Stations)].map(|(at, of)| {
+                    let rows = rows(at).map(|row| (row, false)).collect();
+                    Change::from(TableEdit::SetExists { of, rows })
+                });
+                let paths = set_states(rows(0), PathState::Removed);
+                let all = [paths].into_iter().chain(places);
+                let edits = all.flat_map(|change| self.edits_of(&change)).collect();
+                self.apply_edits(edits, inverse)
+            }
         }
-        for edit in self.edits_of(change) {
-            inverse.push(self.edit_scene(&edit)?);
-        }
-        Ok(())
     }
 
-    fn row_counts(&self) -> [usize; 3] {
+    fn apply_edits(
+        &mut self,
+        edits: Vec<Edit>,
+        inverse: &mut Vec<StepChange>,
+    ) -> Result<(), EditError> {
+        edits.into_iter().try_for_each(|edit| {
+            let undo = self.edit_scene(&edit)?;
+            inverse.push(StepChange::Change(Change::Scene(undo)));
+            Ok(())
+        })
+    }
+
+    /// Drops the last rows of all tables, and gives their memory back.
+    fn drop_rows(&mut self, rows: [usize; 3]) {
+        self.scene.truncate(rows);
+        self.index = Index::of_scene(&self.scene);
+        let replaced = SceneChange::Replaced(&self.scene);
+        self.observer.notify_change(replaced);
+    }
+
+    pub(super) fn row_counts(&self) -> [usize; 3] {
         Table::ALL.map(|of| of.row_count(self.layout()))
     }
 
@@ -198,6 +272,13 @@ impl Document {
         };
         self.index.update(changed, self.scene.layout());
         if let (Edit::Tables(edit), Edit::Tables(undo)) = (edit, &undo) {
+            let is_of_values = matches!(
+                edit,
+                TableEdit::SetValues { .. }
+                    | TableEdit::SetColumn { .. }
+                    | TableEdit::SetEntries { .. }
+            );
+            self.values_revision += u64::from(is_of_values);
             self.renumber_levels(edit);
             self.index.update_tables(edit, undo, &self.scene);
         }

@@ -40,7 +40,9 @@ pub(super) fn accepted<'a>(
     let of_property = known.filter(|property| fits_column(column, property.kind));
     let value = match of_property {
         Some(property) => {
-            of_kind(property.kind, value).ok_or_else(|| wrong(expected_by(property.kind), value))?
+            let fits = |value: &Value<'_>| is_signed(property) || value.number() >= Some(0.0);
+            let fitting = of_kind(property.kind, value).filter(fits);
+            fitting.ok_or_else(|| wrong(expected_by(property), value))?
         }
         None => value,
     };
@@ -122,8 +124,21 @@ fn of_kind(kind: PropertyKind, value: Value<'_>) -> Option<Value<'_>> {
     }
 }
 
-fn expected_by(kind: PropertyKind) -> String {
-    match kind {
+/// Returns `true` if numbers below 0 have a meaning: angles, heights below the floor, and all that
+/// is no quantity. Speeds, widths and distances have none.
+fn is_signed(property: &Property) -> bool {
+    match property.quantity() {
+        Some(Quantity::Speed | Quantity::RotationSpeed | Quantity::Mass | Quantity::Time) => false,
+        Some(Quantity::Length) => ["height", "minHeight"].contains(&property.name),
+        Some(Quantity::Angle) | None => true,
+    }
+}
+
+fn expected_by(property: &Property) -> String {
+    match property.kind {
+        PropertyKind::Number(quantity) if !is_signed(property) => {
+            format!("a number of at least 0 in {}", quantity.unit())
+        }
         PropertyKind::Number(quantity) => format!("a number in {}", quantity.unit()),
         PropertyKind::Integer => "a whole number".into(),
         PropertyKind::Flag => "true or false".into(),

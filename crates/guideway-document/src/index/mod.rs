@@ -47,6 +47,13 @@ impl Index {
         }
     }
 
+    /// Indexes the layout of a scene; removed nodes have no boxes.
+    pub(crate) fn of_scene(scene: &Scene) -> Self {
+        let mut index = Self::new(scene.layout());
+        index.set_nodes(scene.removed(Table::Nodes), scene);
+        index
+    }
+
     /// Updates the boxes of `changed` paths and adds the new rows of the layout.
     pub(crate) fn update(&mut self, changed: &[u32], layout: &Layout) {
         let path = |row: u32| layout.paths.get(row as usize);

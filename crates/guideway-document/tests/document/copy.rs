@@ -7,7 +7,7 @@ use guideway_layout::{
 use guideway_scene::{SceneOptions, Table};
 use guideway_spline::{Affine, Runs};
 
-use crate::site::{document_of, ends, is_near, p, square};
+use crate::site::{document, document_of, ends, is_near, p, square};
 
 #[test]
 fn copies_bring_their_nodes_and_stations() {
@@ -198,4 +198,44 @@ fn a_paste_keeps_draw_ranks_and_written_curves_in_one_insertion() {
         let exact = CompareOptions::default();
         assert_eq!(differences(&end, &target.to_layout(), &exact), []);
     }
+}
+
+#[test]
+fn undo_of_many_copies_gives_their_memory_back() {
+    let mut document = document(200);
+    let rows = |document: &Document| Table::ALL.map(|of| of.row_count(document.layout()));
+    let (bytes, before) = (document.layout().heap_bytes(), rows(&document));
+    let exact = CompareOptions::default();
+    for _ in 0..2 {
+        document
+            .copy(&Elements::of_paths(0..200), 20, p(0.0, 300.0))
+            .unwrap();
+        assert!(document.layout().heap_bytes() > 10 * bytes);
+        let copied = document.to_layout();
+        document.undo().unwrap();
+        assert!(document.layout().heap_bytes() <= bytes);
+        assert_eq!(rows(&document), before);
+        // As states of rows, the undo step had 8 bytes for each of 8,000.
+        assert!(document.history_bytes() < 20_000);
+        document.redo().unwrap();
+        assert_eq!(differences(&copied, &document.to_layout(), &exact), []);
+        document.undo().unwrap();
+    }
+    // The journal has the rows of the originals.
+    let entries = document.take_journal_entries();
+    let journal: usize = entries.iter().map(|entry| entry.to_record().len()).sum();
+    assert!(journal < 2_000, "{journal} bytes");
+    // Steps behind the copies find their rows again, although these stay.
+    document
+        .copy(&Elements::of_paths(0..200), 2, p(0.0, 300.0))
+        .unwrap();
+    document
+        .draw_path("drawn".into(), &[p(0.0, 0.0), p(5.0, 5.0)], 0.5)
+        .unwrap();
+    let end = document.to_layout();
+    while document.undo().is_some() {}
+    assert_eq!(document.to_layout().paths.len(), 200);
+    assert_eq!(document.layout().paths.len(), 601);
+    while document.redo().is_some() {}
+    assert_eq!(differences(&end, &document.to_layout(), &exact), []);
 }

@@ -1,7 +1,7 @@
 //! Properties, vehicle types, levels, names and directions.
 
 use guideway_document::{Document, Elements, OperationError, PathSet, PropertyRef};
-use guideway_layout::{Direction, Quantity, Value};
+use guideway_layout::{CompareOptions, Direction, Quantity, Value, differences};
 use guideway_scene::{EditError, Table};
 
 use crate::site::{document_of, ends, is_near, p, square};
@@ -98,7 +98,7 @@ fn errors_say_what_does_not_fit() {
     for (error, said) in [
         (
             refused(Table::Paths, "maxSpeed", None, 0, fast),
-            "a number in m/s, not `fast`",
+            "a number of at least 0 in m/s, not `fast`",
         ),
         (
             refused(Table::Nodes, "maxSpeed", None, 0, Value::Int(1)),
@@ -126,7 +126,11 @@ fn errors_say_what_does_not_fit() {
         ),
         (
             refused(Table::Paths, "maxSpeed", None, 0, Value::Float(f64::NAN)),
-            "a number in m/s",
+            "a number of at least 0 in m/s",
+        ),
+        (
+            refused(Table::Paths, "corridor.leftWidth", None, 0, Value::Int(-1)),
+            "a number of at least 0 in m, not `-1`",
         ),
     ] {
         assert!(error.contains(said), "{error}");
@@ -282,4 +286,77 @@ fn cells_are_set_in_one_step_or_not_at_all() {
     };
     assert!(document.set_cells(&taken).is_err());
     assert_eq!(document.layout().paths.value(1, "cost"), None);
+}
+
+#[test]
+fn a_preview_is_taken_back_and_leaves_no_step() {
+    let mut document = document_of(square());
+    let all = property(Table::Paths, "maxSpeed", None);
+    let set = |value: f64| {
+        move |document: &mut Document| {
+            document.set_property(all, &rows([0]), Some(Value::Float(value)))
+        }
+    };
+    set(2.0)(&mut document).unwrap();
+    document.undo();
+    document.take_journal_entries();
+    let (before, state) = (document.to_layout(), document.state());
+    let names = document.undo_redo_names();
+    let values = document.values_revision();
+    for value in [3.0, 4.0] {
+        document.preview_edit(set(value)).unwrap();
+        assert_eq!(speeds(&document)[0], Some(Value::Float(value)));
+    }
+    assert!(document.is_preview() && document.values_revision() > values);
+    assert_eq!(
+        (document.state(), document.undo_redo_names()),
+        (state, names)
+    );
+    assert!(document.take_journal_entries().is_empty());
+    let unknown = |document: &mut Document| {
+        set(5.0)(document)?;
+        document.set_property(all, &rows([99]), None)
+    };
+    assert!(document.preview_edit(unknown).is_err() && !document.is_preview());
+    let exact = CompareOptions::default();
+    assert_eq!(differences(&before, &document.to_layout(), &exact), []);
+    // New rows go too, so that the journal of later edits names the right ones.
+    let selected = document.selection().clone();
+    document
+        .preview_edit(|document| {
+            document
+                .copy(&Elements::of_paths([0]), 1, p(1.0, 0.0))
+                .map(drop)
+        })
+        .unwrap();
+    assert_eq!(document.layout().paths.len(), 5);
+    document.redo().unwrap();
+    assert_eq!(document.layout().paths.len(), 4);
+    assert_eq!(*document.selection(), selected);
+    assert_eq!(speeds(&document)[0], Some(Value::Float(2.0)));
+}
+
+#[test]
+fn nodes_of_a_station_are_set_by_name() {
+    let mut document = document_of(square());
+    let before = document.to_layout();
+    document.set_station_nodes(0, &["c", "b"]).unwrap();
+    assert_eq!(document.layout().stations.nodes(0), [2, 1]);
+    assert_eq!(
+        document
+            .index()
+            .stations_at(2)
+            .filter(|row| *row == 0)
+            .count(),
+        1
+    );
+    let error = document.set_station_nodes(0, &["b", "x"]).unwrap_err();
+    assert!(
+        error.to_string().contains("no node is called `x`"),
+        "{error}"
+    );
+    assert!(document.set_station_nodes(99, &[]).is_err());
+    document.undo();
+    let exact = CompareOptions::default();
+    assert_eq!(differences(&before, &document.to_layout(), &exact), []);
 }

@@ -2,7 +2,7 @@
 
 use std::sync::mpsc;
 
-use guideway_document::{Document, JournalEntry, PointRef, SelectMode, replay};
+use guideway_document::{Document, JournalEntry, PointRef, SceneChange, SelectMode, replay};
 use guideway_scene::PathState;
 use guideway_spline::{Affine, Bounds, Point};
 use proptest::prelude::*;
@@ -140,11 +140,20 @@ proptest! {
         // A renderer with its own scene that receives only the edits.
         let mut replica = scene_of(document.to_layout());
         let (sender, receiver) = mpsc::channel();
-        document.on_edit(move |edit| sender.send(edit.clone()).unwrap());
+        document.on_edit(move |change| {
+            let change = match change {
+                SceneChange::Edit(edit) => Ok(edit.clone()),
+                SceneChange::Replaced(scene) => Err(scene.clone()),
+            };
+            sender.send(change).unwrap();
+        });
         for action in &actions {
             perform(&mut document, action);
-            for edit in receiver.try_iter() {
-                replica.edit(&edit).unwrap();
+            for change in receiver.try_iter() {
+                match change {
+                    Ok(edit) => replica.edit(&edit).unwrap(),
+                    Err(scene) => replica = scene,
+                }
             }
             let all_shown = |&row: &u32| document.scene().state(row) == PathState::Shown;
             prop_assert!(document.selection().iter().all(|row| all_shown(&row)));

@@ -241,6 +241,27 @@ impl Scene {
         }
     }
 
+    /// Drops all rows of paths, nodes and stations but the first ones, and gives their memory back.
+    /// Unlike an edit it has no inverse, and costs time proportional to what is left.
+    ///
+    /// # Panics
+    /// When a table has fewer rows.
+    pub fn truncate(&mut self, rows: [usize; 3]) {
+        self.layout = Arc::new(self.layout.first_rows(rows));
+        let [paths, places @ ..] = rows;
+        if let Colors::Each(colors) = &mut self.colors {
+            colors.truncate(paths);
+            colors.shrink_to_fit();
+        }
+        self.states.truncate(paths);
+        self.states.shrink_to_fit();
+        for (removed, count) in self.removed_places.iter_mut().zip(places) {
+            removed.truncate(count);
+            removed.shrink_to_fit();
+        }
+        self.rebuild_order();
+    }
+
     /// Color of a path, by row.
     pub fn color(&self, path: u32) -> Rgba {
         match &self.colors {

@@ -16,8 +16,8 @@ use crate::language::{say, set_language};
 use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
-use crate::speed_unit::set_speed_unit;
 use crate::tools::Gesture;
+use crate::units::set_units;
 
 /// Least width of the side panel, in points.
 const MIN_SIDE_PANEL_WIDTH: f32 = 180.0;
@@ -34,7 +34,7 @@ impl App {
     pub(crate) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         set_language(self.settings.language.unwrap_or(self.language));
-        set_speed_unit(self.settings.speed_unit);
+        set_units(self.settings.units());
         self.poll(&ctx);
         self.take_input(&ctx);
         self.take_hover(&ctx);
@@ -80,6 +80,8 @@ impl App {
             let shown = side.show(ui, |ui| self.show_side_panel(ui, &ctx));
             self.panel_width = shown.response.rect.width();
         }
+        let typed = self.properties.leave_if_hidden();
+        self.apply_all(typed, &ctx);
         if self.bottom.view.is_some() {
             let most = (ui.available_height() - MIN_CANVAS_HEIGHT).max(MIN_BOTTOM_HEIGHT);
             let bottom = Panel::bottom("tables").resizable(true);

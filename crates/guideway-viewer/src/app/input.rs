@@ -124,11 +124,9 @@ impl App {
         if begins && self.dialogs.is_modal(&self.files) {
             return;
         }
-        if begins
-            && self.canvas.is_over(event, ctx)
-            && let Some(action) = self.properties.commit()
-        {
-            self.apply_all(vec![action], ctx);
+        if begins && self.canvas.is_over(event, ctx) {
+            let typed = self.properties.commit();
+            self.apply_all(typed, ctx);
         }
         let edits_plan = self.plan_editor.task != PlanTask::None;
         let primary_pans = self.tools.tool().adds_points() && !edits_plan;

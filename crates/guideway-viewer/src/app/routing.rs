@@ -89,6 +89,10 @@ impl App {
 
     /// Runs a command of a menu or shortcut.
     pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
+        if command != Command::Cancel {
+            let typed = self.properties.commit();
+            self.apply_all(typed, ctx);
+        }
         let settings = &mut self.settings;
         match command {
             Command::NewLayout => self.new_layout(),
@@ -225,8 +229,10 @@ impl App {
         if Popup::is_any_open(ctx) {
             return Popup::close_all(ctx);
         }
-        let is_typing = ctx.text_edit_focused();
-        self.properties.discard();
+        // A field has lost the focus to the key already.
+        let is_typing = ctx.text_edit_focused() || self.properties.has_draft();
+        let taken_back = self.properties.discard();
+        self.apply_all(taken_back.into_iter().collect(), ctx);
         self.bottom.table.discard();
         release_keyboard(ctx);
         if self.dialogs.close() || is_typing {

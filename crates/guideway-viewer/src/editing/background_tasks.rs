@@ -27,6 +27,8 @@ pub(crate) struct BackgroundTasks {
     selecting: Option<(BackgroundTask<PathSet>, SelectMode)>,
     checking: Option<BackgroundTask<Findings>>,
     findings: Option<Findings>,
+    /// [`Document::values_revision`] of the colors that the scene has, or gets.
+    colored: u64,
     /// A state without findings, and the time of its detection in seconds.
     unchecked: Option<(u64, CheckOptions, f64)>,
 }
@@ -49,6 +51,7 @@ impl BackgroundTasks {
             selecting: None,
             checking: None,
             findings: None,
+            colored: 0,
             unchecked: None,
         }
     }
@@ -61,6 +64,7 @@ impl BackgroundTasks {
     /// Another document is in place.
     pub(crate) fn reset_findings(&mut self) {
         (self.findings, self.checking) = (None, None);
+        self.colored = 0;
     }
 
     pub(crate) fn findings(&self) -> Option<&Findings> {
@@ -103,6 +107,7 @@ impl BackgroundTasks {
     }
 
     fn start_recoloring(&mut self, document: &Document, repaint: &RepaintHandle) {
+        self.colored = document.values_revision();
         let (layout, options) = (document.scene().shared_layout(), self.options.clone());
         let task = BackgroundTask::start(repaint, move || Scene::new(layout, &options));
         self.recoloring = Some(task);
@@ -151,7 +156,9 @@ impl BackgroundTasks {
         now_s: f64,
         repaint: &RepaintHandle,
     ) -> Option<Duration> {
-        let (document, findings) = (document?, self.findings.as_ref()?);
+        // A preview does not count.
+        let document = document.filter(|document| !document.is_preview())?;
+        let findings = self.findings.as_ref()?;
         let state = document.state();
         let is_new = findings.state == state && findings.options == options;
         if is_new || self.checking.is_some() || findings.elapsed > LONG_CHECK {
@@ -188,6 +195,10 @@ impl BackgroundTasks {
                 .poll_query()
                 .or_else(|| self.poll_colors(document, file, repaint));
             events.extend(event);
+            let is_old = self.colored != document.values_revision();
+            if is_old && self.options.color_by.is_some() && self.recoloring.is_none() {
+                self.start_recoloring(document, repaint);
+            }
         }
         events
     }

@@ -39,7 +39,26 @@ impl EditTask {
     pub(crate) fn with_journal(
         change: impl FnOnce(&mut Document, &mut Journal) -> Result<(), Notice> + Send + 'static,
     ) -> Self {
-        Self(Box::new(change))
+        Self(Box::new(move |document, journal| {
+            document.end_preview();
+            change(document, journal)
+        }))
+    }
+
+    /// Shows an edit until the next task; one that is refused shows nothing.
+    pub(crate) fn preview<E>(
+        edit: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
+    ) -> Self {
+        Self(Box::new(move |document, _| {
+            // Confirming the edit tells why it is refused.
+            let _ = document.preview_edit(edit);
+            Ok(())
+        }))
+    }
+
+    /// Takes back the edit that is shown, as any other task does.
+    pub(crate) fn end_preview() -> Self {
+        Self::view_change(|_| {})
     }
 
     /// Runs the edit.

@@ -143,8 +143,12 @@ impl JournalFile {
         self.created(layout_file)?.write_all(&records)
     }
 
-    /// The journal, which is created where there is none.
+    /// The journal, which is created where there is none. One that vanished is written again.
     fn created(&mut self, layout_file: &Path) -> io::Result<&mut File> {
+        let is_gone = || fs::symlink_metadata(&self.journal).is_err();
+        if let Some(vanished) = self.file.take_if(|_| is_gone()) {
+            self.file = Some(rewrite(vanished, &self.journal)?);
+        }
         match &mut self.file {
             Some(file) => Ok(file),
             none => {
@@ -249,6 +253,15 @@ fn create(journal: &Path, layout_file: &Path) -> io::Result<File> {
     }
     file.set_permissions(permissions(&fs::metadata(layout_file)?))?;
     file.write_all(&header)?;
+    Ok(file)
+}
+
+/// Writes the content of a file, which no longer has a name, under a name again.
+fn rewrite(mut vanished: File, journal: &Path) -> io::Result<File> {
+    let mut file = lock_regular_file(journal, true)?;
+    file.set_permissions(vanished.metadata()?.permissions())?;
+    vanished.rewind()?;
+    io::copy(&mut vanished, &mut file)?;
     Ok(file)
 }
 

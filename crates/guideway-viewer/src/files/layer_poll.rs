@@ -130,7 +130,7 @@ impl Layer {
         events.extend(notice.map(LayerEvent::Notice));
         // Edits replayed so far are in the scene that the render thread gets.
         let queue = self.picture.queue();
-        document.on_edit(move |edit| queue.edit(edit.clone()));
+        document.on_edit(move |change| queue.change(change));
         let is_reload = self.slot.replace(document);
         self.tasks.reset_findings();
         if is_reload || std::mem::take(&mut self.owes_scene) {

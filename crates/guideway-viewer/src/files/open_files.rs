@@ -13,7 +13,7 @@ use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::loader::NewLayout;
 use super::recent_files::RecentFiles;
-use super::save_state::changed_on_disk;
+use super::save_state::{changed_on_disk, gone_from_disk};
 use super::watcher::Watcher;
 use crate::language::say;
 
@@ -258,6 +258,10 @@ impl OpenFiles {
         }
         let mut notices = Vec::new();
         for (path, state) in self.watcher.changed().collect::<Vec<_>>() {
+            if state.is_none() {
+                notices.push(gone_from_disk(&path));
+                continue;
+            }
             let is_foreign = |l: &Layer| {
                 l.is_at(&path) && !l.is_untitled() && l.save.is_changed_by_others(state)
             };

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use guideway_document::Snapshot;
+use guideway_layout::shown_path;
 
 use super::watcher::Stamp;
 use crate::editing::{DocumentSlot, EditTask, Journal};
@@ -92,6 +93,7 @@ impl SaveState {
             return None;
         }
         let document = slot.document_mut()?;
+        document.end_preview();
         let snapshot = document.snapshot();
         let before = document.mark_saved();
         self.is_saving = true;
@@ -137,6 +139,15 @@ pub(super) fn changed_on_disk(name: &str) -> String {
     say!(
         "{name} has changed on disk. File > Reload reads it and discards your changes",
         name
+    )
+}
+
+/// The notice about a file that is no longer there.
+pub(super) fn gone_from_disk(file: &Path) -> String {
+    say!(
+        "{file} is gone. What is open here stays; Save writes the file again, and Save as writes \
+         another one",
+        file = shown_path(file)
     )
 }
 

@@ -1,4 +1,4 @@
-//! Detects files that other programs changed, by polling their time and size.
+//! Detects files that other programs changed or removed, by polling their time and size.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -12,6 +12,8 @@ use crate::services::FileStamp;
 /// Polling interval. Polling works on every disk and network file system and sees replaced files;
 /// notifications of the operating system do not.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
+/// Polls after which a missing file counts as gone: others replace files by removing them first.
+const MISSING_POLLS: u32 = 3;
 
 /// The thread that watches files.
 pub(crate) struct Watcher {
@@ -61,30 +63,43 @@ impl Watcher {
 
 #[derive(Default)]
 struct FileStates {
-    /// Per file the last reported and the last seen state.
-    files: HashMap<PathBuf, (Stamp, Stamp)>,
+    files: HashMap<PathBuf, WatchedFile>,
+}
+
+struct WatchedFile {
+    reported: Stamp,
+    seen: Stamp,
+    /// Polls since the file was missed first.
+    missing: u32,
 }
 
 impl FileStates {
     fn set_files(&mut self, files: Vec<PathBuf>) {
         let state = |file: PathBuf| {
             let stamp = FileStamp::of(&file);
-            (file, (stamp, stamp))
+            let state = WatchedFile {
+                reported: stamp,
+                seen: stamp,
+                missing: 0,
+            };
+            (file, state)
         };
         self.files = files.into_iter().map(state).collect();
     }
 
-    /// Files that changed and then stayed the same for one interval: those that are still being
-    /// written or are missing for a moment are reported later.
+    /// Files that changed and then stayed the same for one interval, or are missing for several:
+    /// those that are still being written or are missing for a moment are reported later.
     fn poll(&mut self) -> Vec<(PathBuf, Stamp)> {
         let mut changed = Vec::new();
-        for (file, (reported, seen)) in &mut self.files {
+        for (file, state) in &mut self.files {
             let now = FileStamp::of(file);
-            if now == *seen && now != *reported && now.is_some() {
-                *reported = now;
+            state.missing = if now.is_some() { 0 } else { state.missing + 1 };
+            let is_certain = now.is_some() || state.missing >= MISSING_POLLS;
+            if now == state.seen && now != state.reported && is_certain {
+                state.reported = now;
                 changed.push((file.clone(), now));
             }
-            *seen = now;
+            state.seen = now;
         }
         changed
     }
@@ -116,5 +131,9 @@ mod tests {
         fs::write(&file, "123").unwrap();
         states.poll();
         assert_eq!(states.poll(), [(file.clone(), FileStamp::of(&file))]);
+        fs::remove_file(&file).unwrap();
+        let polls = [(); 4].map(|()| states.poll());
+        let gone = vec![(file, None)];
+        assert_eq!(polls, [vec![], vec![], gone, vec![]], "gone, once");
     }
 }

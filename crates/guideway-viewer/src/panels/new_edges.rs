@@ -1,7 +1,7 @@
 //! The New paths window: direction, greatest speed and vehicle types of what is drawn.
 
 use crate::language::{say, t};
-use crate::speed_unit::speed_unit;
+use crate::units::units;
 
 /// Least and greatest speed of a field, in m/s.
 const SPEEDS_M_S: [f64; 2] = [0.01, 100.0];
@@ -45,7 +45,7 @@ impl NewEdgesPanel {
                 }
                 template.max_speed = has_speed.then_some(speed);
             });
-            let unit = speed_unit().name();
+            let unit = units().speed.name();
             let label = ui.label(say!("Vehicle types, with their speeds in {unit}", unit));
             let field = TextEdit::singleline(&mut self.types)
                 .hint_text("tugger: 1.5, stacker: 1.2")
@@ -77,7 +77,7 @@ impl NewEdgesPanel {
 
 /// A field of a speed in m/s, in the unit of the settings.
 pub(super) fn speed_field(ui: &mut Ui, speed_m_s: &mut f64) {
-    let unit = speed_unit();
+    let unit = units().speed;
     let mut shown = unit.of_m_s(*speed_m_s);
     let [least, most] = SPEEDS_M_S.map(|speed| unit.of_m_s(speed));
     let suffix = format!(" {}", unit.name());
@@ -106,7 +106,7 @@ fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
                     let speed = speed.trim();
                     say!("`{speed}` is no speed above 0; write `tugger: 1.5`", speed)
                 })?;
-                (name.trim(), Some(speed_unit().to_m_s(value)))
+                (name.trim(), Some(units().speed.to_m_s(value)))
             }
             None => (part, None),
         };
@@ -123,7 +123,7 @@ fn read_types(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {
 
 fn types_text(types: &[(String, Option<f64>)]) -> String {
     let text = |(name, speed): &(String, Option<f64>)| match speed {
-        Some(speed) => format!("{name}: {}", speed_unit().of_m_s(*speed)),
+        Some(speed) => format!("{name}: {}", units().speed.of_m_s(*speed)),
         None => name.clone(),
     };
     types.iter().map(text).collect::<Vec<_>>().join(", ")

@@ -7,7 +7,7 @@ use crate::action::Action;
 use crate::files::OpenFiles;
 use crate::language::{counted, say, t};
 use crate::route::{FoundRoute, RouteSearch, Slot};
-use crate::speed_unit::speed_unit;
+use crate::units::units;
 
 const ROW_HEIGHT: f32 = 18.0;
 
@@ -127,8 +127,8 @@ fn show_steps(ui: &mut Ui, route: &FoundRoute, actions: &mut Vec<Action>) {
                 path = step.path,
                 to = step.to,
                 length = text_format::length(row.length_m),
-                speed = format!("{:.2}", speed_unit().of_m_s(row.speed_m_s)),
-                unit = speed_unit().name(),
+                speed = format!("{:.2}", units().speed.of_m_s(row.speed_m_s)),
+                unit = units().speed.name(),
                 time = time_text(row.drive_s),
                 all = time_text(row.end_s),
             );

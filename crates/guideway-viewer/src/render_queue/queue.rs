@@ -5,6 +5,7 @@
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
+use guideway_document::SceneChange;
 use guideway_scene::{Cancel, Edit, Gesture, Scene};
 
 use super::RenderRequest;
@@ -60,9 +61,12 @@ impl RenderQueue {
         self.0.condvar.notify_one();
     }
 
-    /// Applies an edit to the worker's scene.
-    pub(crate) fn edit(&self, edit: Edit) {
-        self.update(SceneUpdate::Edit(edit));
+    /// Applies a change of a document to the worker's scene.
+    pub(crate) fn change(&self, change: SceneChange<'_>) {
+        self.update(match change {
+            SceneChange::Edit(edit) => SceneUpdate::Edit(edit.clone()),
+            SceneChange::Replaced(scene) => SceneUpdate::Scene(Arc::new(scene.clone())),
+        });
     }
 
     /// Shows a gesture, or the scene without one, and repeats the last request. The picture in

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use guideway_document::Element;
+use guideway_document::{Document, Element};
 use guideway_layout::Direction;
 use guideway_scene::Table;
 use guideway_spline::Point;
@@ -10,6 +10,7 @@ use guideway_spline::Point;
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::command::Command;
+use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -225,4 +226,35 @@ fn arrows_move_the_selection_by_the_grid_and_pan_without_one() {
     assert!(window.at(0.0, 0.0).x > before.x);
     let start = window.document().layout().paths.get(1).ends().unwrap().0;
     assert!(start.distance(Point::new(-0.5, 2.5)) < 1e-9);
+}
+
+#[test]
+fn window_forgets_the_rows_of_undone_copies() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.key(CTRL, Key::T);
+    window.harness.run_steps(4);
+    window.key(CTRL, Key::A);
+    window.edit(|document: &mut Document| document.copy_selection(2, Point::new(0.0, 2.0)));
+    let app = window.app();
+    app.find.name = "lane".into();
+    app.find.search(app.files.document(), &app.context.repaint);
+    app.side.open(SideTab::Find);
+    window.harness.run_steps(4);
+    assert_eq!(window.document().layout().paths.len(), 9);
+    // The pointer is over a copy while it goes.
+    let at = window.at(5.0, 4.0);
+    window.harness.event(Event::PointerMoved(at));
+    window.harness.run_steps(3);
+    for _ in 0..2 {
+        window.key(CTRL, Key::Z);
+        window.harness.run_steps(3);
+        assert_eq!(window.document().layout().paths.len(), 3);
+        window.wait(|app| {
+            let shown = app.files.layers()[0].picture.shown();
+            shown.is_some_and(|shown| shown.report.total == 3)
+        });
+        window.key(CTRL, Key::Y);
+        window.harness.run_steps(3);
+        assert_eq!(window.document().layout().paths.len(), 9);
+    }
 }

@@ -12,8 +12,8 @@ use crate::canvas::shown_colors;
 use crate::display_settings::ThemeChoice;
 use crate::language::Language;
 use crate::panels::SideTab;
-use crate::speed_unit::SpeedUnit;
 use crate::tools::Tool;
+use crate::units::SpeedUnit;
 
 const NONE: Modifiers = Modifiers::NONE;
 

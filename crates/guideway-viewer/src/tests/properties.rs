@@ -8,6 +8,7 @@ use guideway_layout::Value;
 
 use super::services::lanes;
 use super::test_window::{TestWindow, has_notice};
+use crate::app::App;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -28,6 +29,22 @@ fn type_over(window: &mut TestWindow, shown: &str, text: &str) {
     window.harness.run_steps(2);
     window.key(NONE, Key::Enter);
     window.harness.run_steps(2);
+}
+
+/// Types into the field with this value, without confirming it.
+fn begin_typing(window: &mut TestWindow, shown: &str, text: &str) {
+    window.harness.get(field(shown)).focus();
+    window.harness.run_steps(2);
+    window.key(CTRL, Key::A);
+    window.harness.event(Event::Text(text.into()));
+    window.harness.run_steps(3);
+}
+
+/// The arrows on screen that point both ways.
+fn two_way_arrows(app: &App) -> usize {
+    let overlay = app.files.layers()[0].slot.overlay().last();
+    let arrows = overlay.map_or(&[][..], |overlay| &overlay.marks.arrows);
+    arrows.iter().filter(|arrow| arrow.is_two_way).count()
 }
 
 fn speed(window: &mut TestWindow, row: usize) -> Option<f64> {
@@ -128,4 +145,95 @@ fn node_is_selected_renamed_moved_and_deleted_with_its_paths() {
     assert!(!window.document().contains(Element::Path(1)));
     window.key(CTRL, Key::Z);
     assert!(window.document().contains(Element::Path(1)));
+}
+
+#[test]
+fn what_is_typed_shows_at_once_and_counts_as_one_step() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.app().settings.color_by = Some("speed".into());
+    window.app().recolor();
+    let colored = |app: &App| app.document().is_some_and(|d| d.scene().legend().is_some());
+    window.wait(colored);
+    let at = window.at(5.0, 2.0);
+    window.click(at);
+    let before = window.document().scene().color(1);
+    for end in [Key::Escape, Key::Enter] {
+        begin_typing(&mut window, "0.5", "2");
+        assert_eq!(speed(&mut window, 1), Some(2.0));
+        window.wait(|app| app.document().is_some_and(|d| d.scene().color(1) != before));
+        // A wrong text shows what the file has.
+        window.harness.event(Event::Text("x".into()));
+        window.harness.run_steps(3);
+        assert_eq!(speed(&mut window, 1), Some(0.5));
+        window.key(NONE, Key::Backspace);
+        window.harness.event(Event::Text("5".into()));
+        window.harness.run_steps(3);
+        assert_eq!(speed(&mut window, 1), Some(25.0));
+        assert!(!window.document().is_changed());
+        assert!(window.document().take_journal_entries().is_empty());
+        window.key(NONE, end);
+        window.harness.run_steps(3);
+        let counts = end == Key::Enter;
+        assert_eq!(speed(&mut window, 1), Some(if counts { 25.0 } else { 0.5 }));
+        assert_eq!(window.document().is_changed(), counts);
+    }
+    window.key(CTRL, Key::Z);
+    assert_eq!(speed(&mut window, 1), Some(0.5));
+    assert_eq!(
+        window.document().undo_redo_names(),
+        (None, Some("set property"))
+    );
+    window.wait(|app| app.document().is_some_and(|d| d.scene().color(1) == before));
+    // Another tab leaves the field, which confirms it.
+    begin_typing(&mut window, "0.5", "3");
+    window.key(CTRL, Key::F);
+    window.harness.run_steps(3);
+    assert_eq!(speed(&mut window, 1), Some(3.0));
+    assert!(window.document().is_changed() && !window.document().is_preview());
+}
+
+#[test]
+fn direction_under_the_pointer_shows_until_another_is_chosen() {
+    let mut window = TestWindow::showing(lanes(3));
+    let at = window.at(5.0, 2.0);
+    window.click(at);
+    window.harness.run_steps(3);
+    let combo = By::new().role(Role::ComboBox).value("one-way");
+    window.harness.get(combo).click();
+    window.harness.run_steps(4);
+    let choice = window.harness.get_by_label("two-way").rect().center();
+    window.harness.event(Event::PointerMoved(choice));
+    window.wait(|app| two_way_arrows(app) > 0);
+    assert!(!window.document().is_changed());
+    window.harness.event(Event::PointerMoved(at));
+    window.wait(|app| two_way_arrows(app) == 0);
+    window.click(choice);
+    window.wait(|app| two_way_arrows(app) > 0);
+    assert_eq!(window.document().undo_redo_names().0, Some("make two-way"));
+}
+
+#[test]
+fn nodes_of_a_station_are_typed_by_name() {
+    let mut layout = lanes(3);
+    layout.stations.push("dock", None, vec![1], None);
+    let mut window = TestWindow::showing(layout);
+    let at_m = window.document().station_position_m(0).unwrap();
+    window.change(|document: &mut guideway_document::Document| {
+        let dock = guideway_document::Elements::of(Element::Station(0));
+        document.select_elements(&dock, Default::default());
+    });
+    window.harness.run_steps(3);
+    let nodes = |window: &mut TestWindow| window.document().layout().stations.nodes(0).to_vec();
+    let first = window.document().layout().nodes.id(1).to_owned();
+    type_over(&mut window, &first, "n1 0, n9");
+    assert!(has_notice(window.app(), "no node is called `n9`"));
+    assert_eq!(nodes(&mut window), [1]);
+    type_over(&mut window, &first, "n1 0, n2 10");
+    assert_eq!(nodes(&mut window).len(), 2);
+    type_over(&mut window, "n1 0, n2 10", " ");
+    assert!(nodes(&mut window).is_empty());
+    assert_eq!(window.document().station_position_m(0), Some(at_m));
+    window.key(CTRL, Key::Z);
+    window.key(CTRL, Key::Z);
+    assert_eq!(nodes(&mut window), [1]);
 }

@@ -233,3 +233,41 @@ fn new_layout_survives_a_crash() {
     let left = fs::read_dir(states[1].join("drafts")).unwrap().count();
     assert_eq!(left, 0);
 }
+
+#[test]
+fn edits_go_on_where_the_folder_of_the_journal_is_gone() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = folder.path().join("site.arrow");
+    fs::write(&site, "").unwrap();
+    let disk = TestServices::with([]);
+    disk.files.lock().unwrap().insert(site.clone(), lanes(4));
+    let mut window = TestWindow::open(&disk, &[site.to_str().unwrap()], Some("cpu"));
+    window.wait(|app| app.files.layers()[0].is_settled());
+    fs::remove_dir_all(folder.path()).unwrap();
+    window.key(Modifiers::COMMAND, Key::A);
+    for deletes in [true, false] {
+        let key = if deletes { Key::Delete } else { Key::Z };
+        let modifiers = if deletes {
+            Modifiers::NONE
+        } else {
+            Modifiers::COMMAND
+        };
+        window.key(modifiers, key);
+        window.harness.run_steps(3);
+        assert_eq!(window.document().scene().draw_order().is_empty(), deletes);
+        // It is said once.
+        assert_eq!(has_notice(window.app(), "save often"), deletes);
+        window.app().dialogs.notices.clear();
+    }
+    // A save says that, too, and writes the file once the folder is back.
+    window.key(Modifiers::COMMAND, Key::A);
+    window.key(Modifiers::NONE, Key::Delete);
+    disk.files.lock().unwrap().clear();
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait(|app| has_notice(app, "No such file"));
+    assert!(window.document().is_changed());
+    fs::create_dir_all(folder.path()).unwrap();
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait(|app| has_notice(app, "Saved"));
+    assert!(disk.files.lock().unwrap()[&site].paths.is_empty());
+}

@@ -187,6 +187,22 @@ fn cells_of_a_spreadsheet_are_pasted_in_one_step() {
         .event(Event::Paste("1\n2\n3\n4\n5\n6".into()));
     window.harness.run_steps(3);
     assert!(has_notice(window.app(), "6 lines are pasted"));
+    // Garbage changes nothing, in the table and over the drawing.
+    for text in [
+        "\u{0}\u{1}\t\u{202e}\n\n\t\t\t\t\t\t\t\t\t",
+        "",
+        "\n\n",
+        "\u{feff}{\"lif\":",
+    ] {
+        window.harness.event(Event::Paste(text.into()));
+        window.harness.run_steps(3);
+        assert_eq!(speeds(&mut window), [0.0, 4.0, 1.0, 4.0], "{text:?}");
+    }
+    let at = window.at(5.0, 50.0);
+    window.click(at);
+    window.harness.event(Event::Paste("\u{0}garbage".into()));
+    window.harness.run_steps(3);
+    assert!(has_notice(window.app(), "Nothing is copied"));
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! The text that is typed instead of a click: a length, an angle, coordinates or a radius.
 
-use crate::language::{say, t};
 use guideway_spline::Point;
+
+use crate::language::{say, t};
+use crate::units::typed_number;
 
 /// The forms, for people.
 pub(crate) const FORMS: &str = "length  |  length<angle  |  x,y  |  @dx,dy  |  r radius";
@@ -13,7 +15,8 @@ pub(crate) struct TypedText {
     pub(crate) error: Option<String>,
 }
 
-/// The meaning of a text. Lengths are in meters, angles in degrees counter-clockwise.
+/// The meaning of a text. Lengths are in meters, or in the unit behind them; angles in degrees
+/// counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Typed {
     /// A length in the direction of the pointer.
@@ -46,7 +49,7 @@ pub(super) fn parse(text: &str) -> Result<Typed, String> {
     let offset = text.strip_prefix('@');
     match (offset.unwrap_or(text).split_once([',', ';']), offset) {
         (Some((x, y)), offset) => {
-            let point = Point::new(number(x)?, number(y)?);
+            let point = Point::new(length_m(x)?, length_m(y)?);
             Ok(match offset {
                 Some(_) => Typed::Offset(point),
                 None => Typed::Place(point),
@@ -69,8 +72,17 @@ fn number(text: &str) -> Result<f64, String> {
     })
 }
 
+/// A length in meters, or with one of the known units behind it.
+fn length_m(text: &str) -> Result<f64, String> {
+    let has_unit = text.trim().ends_with(char::is_alphabetic);
+    let length_m = typed_number(text, Some("m"), |digits| digits.parse().ok());
+    length_m
+        .filter(|_| has_unit)
+        .map_or_else(|| number(text), Ok)
+}
+
 fn positive(text: &str, name: &str) -> Result<f64, String> {
-    let value = number(text)?;
+    let value = length_m(text)?;
     match value > 0.0 {
         true => Ok(value),
         false => Err(say!(
@@ -108,6 +120,9 @@ mod tests {
             ("-1; -2.5", Typed::Place(Point::new(-1.0, -2.5))),
             ("@2,-1", Typed::Offset(Point::new(2.0, -1.0))),
             ("r2", Typed::Radius(2.0)),
+            ("5 ft", Typed::Length(1.524)),
+            ("80cm", Typed::Length(0.8)),
+            ("5ft,-2m", Typed::Place(Point::new(1.524, -2.0))),
         ];
         for (text, typed) in forms {
             assert_eq!(parse(text), Ok(typed), "{text}");
@@ -118,7 +133,7 @@ mod tests {
     fn wrong_texts_say_what_is_wrong() {
         for (text, part) in [
             ("", "is no number"),
-            ("5m", "`5m` is no number"),
+            ("5s", "`5s` is no number"),
             ("5<", "is no number"),
             ("1,2,3", "`2,3` is no number"),
             ("nan", "is no number"),

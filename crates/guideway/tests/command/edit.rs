@@ -185,7 +185,7 @@ fn a_failing_step_writes_nothing_and_is_named() {
         ),
         (
             r#"{"do": "set", "paths": "all", "property": "maxSpeed", "value": "fast"}"#,
-            "step 7 (`set`): `maxSpeed` takes a number in m/s, not `fast`",
+            "step 7 (`set`): `maxSpeed` takes a number of at least 0 in m/s, not `fast`",
         ),
         (
             r#"{"do": "set", "paths": {"query": "speed >"}, "property": "x", "value": 1}"#,
@@ -221,7 +221,7 @@ fn a_failing_step_writes_nothing_and_is_named() {
         ),
         (
             r#"{"do": "create-vehicle-type", "id": "crane", "properties": {"maxSpeed": "fast"}}"#,
-            "`maxSpeed` takes a number in m/s, not `fast`",
+            "`maxSpeed` takes a number of at least 0 in m/s, not `fast`",
         ),
         (
             r#"{"do": "paste", "from": "none.lif.json", "paths": "all"}"#,

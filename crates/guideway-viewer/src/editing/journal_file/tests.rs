@@ -73,6 +73,23 @@ fn finds_work_after_a_crash_of_the_same_file_only() {
 }
 
 #[test]
+fn journal_that_vanished_is_written_again() {
+    let (folder, site, mut edited, mut journal) = edited();
+    fs::remove_file(&journal.journal).unwrap();
+    edited.move_node(1, Point::new(2.0, 2.0)).unwrap();
+    journal.record(&mut edited, &site).unwrap();
+    drop(journal);
+    let (mut journal, _, done, recovered) = replayed(&site);
+    assert_eq!(done.entries, 4);
+    assert_eq!(recovered.node_position_m(1), Point::new(2.0, 2.0));
+    journal.resume(done, &site).unwrap();
+    // It is an error if that is impossible.
+    fs::remove_dir_all(folder.path()).unwrap();
+    edited.move_node(1, Point::new(3.0, 3.0)).unwrap();
+    assert!(journal.record(&mut edited, &site).is_err());
+}
+
+#[test]
 fn work_after_a_save_starts_from_the_file_as_read() {
     for name in ["site.arrow", "other.arrow"] {
         let (folder, site, mut edited, mut journal) = edited();

@@ -9,7 +9,7 @@ use crate::action::{Action, GroupRequest};
 use crate::editing::EditTask;
 use crate::language::{say, t};
 use crate::panels::properties::{FieldKind, TypedValue};
-use crate::speed_unit::{shown_unit, shown_value};
+use crate::units::{shown_unit, shown_value};
 
 /// Width of the fields, in points.
 const FIELD_WIDTH: f32 = 200.0;

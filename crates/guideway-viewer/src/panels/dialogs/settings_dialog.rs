@@ -5,7 +5,7 @@ use eframe::egui::{Checkbox, ComboBox, Context, DragValue, Grid, Ui, Window};
 use crate::action::Action;
 use crate::display_settings::{DisplaySettings, GRID_STEPS_M, ThemeChoice};
 use crate::language::{Language, t};
-use crate::speed_unit::SpeedUnit;
+use crate::units::{LengthUnit, SpeedUnit};
 
 /// Grid step when the user first sets one, in meters.
 const FIRST_STEP_M: f64 = 1.0;
@@ -26,6 +26,7 @@ impl SettingsDialog {
                 theme(ui, settings);
                 language(ui, settings);
                 speeds(ui, settings);
+                lengths(ui, settings);
                 grid_step(ui, settings);
                 ui.label(t("File names"));
                 let asks = &mut settings.uses_desktop_dialogs;
@@ -74,6 +75,20 @@ fn speeds(ui: &mut Ui, settings: &mut DisplaySettings) {
         .show_ui(ui, |ui| {
             for unit in SpeedUnit::ALL {
                 ui.selectable_value(&mut settings.speed_unit, unit, unit.name());
+            }
+        })
+        .response
+        .labelled_by(label.id);
+    ui.end_row();
+}
+
+fn lengths(ui: &mut Ui, settings: &mut DisplaySettings) {
+    let label = ui.label(t("Lengths of properties in"));
+    ComboBox::from_id_salt("lengths")
+        .selected_text(settings.length_unit.name())
+        .show_ui(ui, |ui| {
+            for unit in LengthUnit::ALL {
+                ui.selectable_value(&mut settings.length_unit, unit, unit.name());
             }
         })
         .response

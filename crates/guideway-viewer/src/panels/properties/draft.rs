@@ -1,11 +1,12 @@
-//! A text that is being typed into a field, and the edit that it will become.
+//! A text that is being typed into a field, the edit that it will become, and its preview.
 
 use std::sync::Arc;
 
 use guideway_document::{Document, PathSet, PropertyRef};
+use guideway_layout::Direction;
 use guideway_scene::Table;
 
-use super::field::FieldKind;
+use super::field::{FieldKind, MAX_COMPARED};
 use super::typed_value::TypedValue;
 use crate::editing::EditTask;
 
@@ -14,6 +15,10 @@ use crate::editing::EditTask;
 pub(super) enum Subject {
     /// The name of the only selected element.
     Name,
+    /// The names of the nodes that serve the only selected station, with commas between.
+    Nodes,
+    /// This direction of paths, whatever the text.
+    Direction(Direction),
     /// A property, for all vehicle types or for one.
     Property {
         name: String,
@@ -53,20 +58,55 @@ impl Draft {
     }
 }
 
+type DocumentEdit = Box<dyn FnOnce(&mut Document) -> Result<(), String> + Send>;
+
 impl Target {
     /// The edit that a confirmed text becomes.
     ///
     /// # Errors
     /// Why the field does not take the text.
     pub(super) fn edit(self, text: &str) -> Result<EditTask, String> {
+        self.document_edit(text).map(EditTask::edit)
+    }
+
+    /// Shows what the edit would do; `None` where the drawing shows nothing of it, or where it
+    /// would take longer than a key press. An empty text removes a property, which only Enter does.
+    pub(super) fn preview(&self, text: &str) -> Option<EditTask> {
+        let is_shown = match self.subject {
+            Subject::Name => false,
+            Subject::Direction(_) | Subject::Nodes => true,
+            Subject::Property { .. } => !text.trim().is_empty(),
+        };
+        if !is_shown || self.rows.len() > MAX_COMPARED as u64 {
+            return None;
+        }
+        let edit = self.clone().document_edit(text).ok()?;
+        Some(EditTask::preview(edit))
+    }
+
+    fn document_edit(self, text: &str) -> Result<DocumentEdit, String> {
         let Self { of, rows, subject } = self;
         match subject {
             Subject::Name => {
                 let (id, row) = (text.trim().to_owned(), rows.min());
-                Ok(EditTask::edit(move |document: &mut Document| {
-                    row.map_or(Ok(()), |row| document.rename(of, row, &id))
+                Ok(Box::new(move |document| {
+                    let renamed = row.map_or(Ok(()), |row| document.rename(of, row, &id));
+                    renamed.map_err(|error| error.to_string())
                 }))
             }
+            Subject::Nodes => {
+                let (text, row) = (text.to_owned(), rows.min());
+                Ok(Box::new(move |document| {
+                    let ids = text.split(',').map(str::trim).filter(|id| !id.is_empty());
+                    let ids: Vec<&str> = ids.collect();
+                    let set = row.map_or(Ok(()), |row| document.set_station_nodes(row, &ids));
+                    set.map_err(|error| error.to_string())
+                }))
+            }
+            Subject::Direction(direction) => Ok(Box::new(move |document| {
+                let set = document.set_direction(&rows, direction);
+                set.map_err(|error| error.to_string())
+            })),
             Subject::Property {
                 name,
                 kind,
@@ -75,14 +115,15 @@ impl Target {
             } => {
                 let value = TypedValue::parse(text, kind, unit)
                     .map_err(|expected| format!("{name}: {expected}"))?;
-                Ok(EditTask::edit(move |document: &mut Document| {
+                Ok(Box::new(move |document| {
                     let property = PropertyRef {
                         of,
                         name: &name,
                         vehicle_type: vehicle_type.as_deref(),
                     };
                     let value = value.as_ref().map(TypedValue::as_value);
-                    document.set_property(property, &rows, value)
+                    let set = document.set_property(property, &rows, value);
+                    set.map_err(|error| error.to_string())
                 }))
             }
         }

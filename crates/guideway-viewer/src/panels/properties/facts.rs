@@ -12,6 +12,8 @@ use crate::language::t;
 pub(super) struct Facts {
     /// Name of the element, if there is one.
     pub(super) name: Option<String>,
+    /// Names of the nodes that serve the only station, with commas between.
+    pub(super) nodes: Option<String>,
     /// Names of the ends of the only path.
     pub(super) ends: Option<[String; 2]>,
     /// Direction of the paths, if they have the same one.
@@ -42,6 +44,11 @@ impl Facts {
         let all_types = all_types.map(str::to_owned).collect();
         Self {
             name: only.map(|row| of.id(layout, row).to_owned()),
+            nodes: only.filter(|_| of == Table::Stations).map(|row| {
+                let nodes = layout.stations.nodes(row).iter();
+                let names: Vec<&str> = nodes.map(|&node| layout.nodes.id(node)).collect();
+                names.join(", ")
+            }),
             ends: only.filter(|_| is_path).map(|row| {
                 let path = path(row);
                 [path.start_node(), path.end_node()].map(node)

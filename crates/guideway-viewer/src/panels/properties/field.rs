@@ -6,7 +6,7 @@ use guideway_document::PathSet;
 use guideway_layout::{Attributes, Layout, Property, PropertyKind, TypeEntries, Value, Values};
 use guideway_scene::Table;
 
-use crate::speed_unit::shown_value;
+use crate::units::shown_value;
 
 /// Most elements whose values are compared: a field of more shows those of the first.
 pub(super) const MAX_COMPARED: usize = 10_000;

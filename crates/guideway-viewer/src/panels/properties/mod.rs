@@ -1,7 +1,7 @@
 //! The Properties tab: facts and properties of what is selected, as fields that edit.
 //!
-//! A text becomes an edit when it is confirmed: by Enter, by leaving its field, or by a press on
-//! the canvas. Escape takes it back.
+//! The drawing shows at once what is typed or pointed at. It becomes an edit when it is confirmed:
+//! by Enter, by leaving its field, by a command, or by a press on the canvas. Escape takes it back.
 
 mod curvature_plot;
 mod draft;
@@ -24,9 +24,10 @@ use self::draft::{Draft, Subject, Target};
 use self::field::{Common, Field, MAX_COMPARED};
 use self::shown::Shown;
 use crate::action::Action;
+use crate::editing::EditTask;
 use crate::files::{Layer, OpenFiles};
 use crate::language::{say, t};
-use crate::speed_unit::{SpeedUnit, shown_unit, speed_unit};
+use crate::units::{Units, shown_unit, units};
 
 /// Width of the names beside the fields, in points.
 const NAME_WIDTH: f32 = 130.0;
@@ -39,32 +40,70 @@ pub(crate) struct PropertiesPanel {
     /// Per kind of element, valid for one revision of a document.
     shown: Vec<Shown>,
     draft: Option<Draft>,
+    /// The text of a field that the drawing ought to show, and the one that it shows.
+    wanted: Option<(Target, String)>,
+    previewed: Option<(Target, String)>,
+    /// True if the panel was shown since the last call of [`Self::leave_if_hidden`].
+    is_shown: bool,
     /// Properties that the selection gets once they have a value.
     added: Vec<(Table, &'static Property)>,
     /// Vehicle types that get a value of their own: table, property, type.
     added_types: Vec<(Table, String, String)>,
     /// Name of a vehicle type to add.
     new_type: String,
-    /// The unit of the speeds that are shown.
-    unit: SpeedUnit,
+    /// The units of the values that are shown.
+    units: Units,
 }
 
 impl PropertiesPanel {
     /// The edit of a text that was typed but not confirmed yet.
-    pub(crate) fn commit(&mut self) -> Option<Action> {
-        match self.draft.take()?.edit() {
-            Ok(edit) => edit.map(Action::Edit),
-            Err(error) => Some(Action::Notify(error)),
+    pub(crate) fn commit(&mut self) -> Vec<Action> {
+        let edit = self.draft.take().map_or(Ok(None), Draft::edit);
+        let mut actions = Vec::from_iter(self.discard());
+        match edit {
+            // It takes the preview back.
+            Ok(Some(edit)) => return vec![Action::Edit(edit)],
+            Ok(None) => {}
+            Err(error) => actions.push(Action::Notify(error)),
         }
+        actions
+    }
+
+    /// Returns `true` if a text is being typed.
+    pub(crate) fn has_draft(&self) -> bool {
+        self.draft.is_some()
     }
 
     /// Takes back a text that was typed but not confirmed.
-    pub(crate) fn discard(&mut self) {
+    pub(crate) fn discard(&mut self) -> Option<Action> {
         self.draft = None;
+        let shown = self.previewed.take();
+        shown.map(|_| Action::Edit(EditTask::end_preview()))
     }
 
-    /// Shows the fields of the selection.
+    /// As [`Self::commit`], if the panel was not shown since the last call: its field is left then.
+    pub(crate) fn leave_if_hidden(&mut self) -> Vec<Action> {
+        match std::mem::take(&mut self.is_shown) {
+            true => Vec::new(),
+            false => self.commit(),
+        }
+    }
+
+    /// Shows the fields of the selection, and in the drawing what is typed into them.
     pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
+        self.is_shown = true;
+        self.show_fields(ui, files, actions);
+        let wanted = self.wanted.take();
+        if wanted != self.previewed {
+            let preview = wanted
+                .as_ref()
+                .and_then(|(target, text)| target.preview(text));
+            self.previewed = wanted.filter(|_| preview.is_some());
+            actions.push(Action::Edit(preview.unwrap_or_else(EditTask::end_preview)));
+        }
+    }
+
+    fn show_fields(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
         // While an edit has the document the fields stay; what is typed is queued behind the edit.
         if let Some(document) = files.document() {
             if document.selected().is_empty() {
@@ -90,11 +129,14 @@ impl PropertiesPanel {
     fn update(&mut self, document: &Document, file: usize) {
         let revision = document.revision();
         let first = self.shown.first();
-        let is_same = |shown: &Shown| (shown.file, shown.revision) == (file, revision);
-        if self.unit == speed_unit() && first.is_some_and(is_same) {
+        // A field of which a preview is shown keeps its value and its place.
+        let is_same = |shown: &Shown| {
+            shown.file == file && (shown.revision == revision || document.is_preview())
+        };
+        if self.units == units() && first.is_some_and(is_same) {
             return;
         }
-        self.unit = speed_unit();
+        self.units = units();
         let (layout, selected) = (document.layout(), document.selected());
         let tables = [Table::Paths, Table::Nodes, Table::Stations].into_iter();
         let tables = tables.filter(|&of| !selected.rows(of).is_empty());
@@ -138,6 +180,16 @@ impl PropertiesPanel {
             self.text_field(ui, shown.target(Subject::Name), &value, actions);
             ui.end_row();
         }
+        if let Some(nodes) = &facts.nodes {
+            let label = ui.label(t("nodes"));
+            label.on_hover_text(t("Nodes that serve the station, with commas between"));
+            let value = match nodes.is_empty() {
+                true => Common::None,
+                false => Common::Same(nodes.clone()),
+            };
+            self.text_field(ui, shown.target(Subject::Nodes), &value, actions);
+            ui.end_row();
+        }
         if let Some([start, end]) = &facts.ends {
             for (label, node) in [(t("from node"), start), (t("to node"), end)] {
                 ui.label(label);
@@ -147,7 +199,8 @@ impl PropertiesPanel {
         }
         if shown.of == Table::Paths {
             ui.label(t("direction"));
-            pickers::direction(ui, shown, actions);
+            let hovered = pickers::direction(ui, shown, actions);
+            self.wanted = hovered.or(self.wanted.take());
             ui.end_row();
         }
         if !shown.levels.is_empty() {
@@ -238,11 +291,13 @@ impl PropertiesPanel {
     ) {
         let target = property_target(shown, field, per_type.map(|(name, _)| name));
         let value = per_type.map_or(&field.shared, |(_, value)| value);
-        match field.kind {
-            FieldKind::Flag => pickers::choice(ui, target, value, &["true", "false"], actions),
-            FieldKind::Choice(words) => pickers::choice(ui, target, value, words, actions),
-            _ => self.text_field(ui, target, value, actions),
-        }
+        let words: &[&str] = match field.kind {
+            FieldKind::Flag => &["true", "false"],
+            FieldKind::Choice(words) => words,
+            _ => return self.text_field(ui, target, value, actions),
+        };
+        let hovered = pickers::choice(ui, target, value, words, actions);
+        self.wanted = hovered.or(self.wanted.take());
     }
 
     /// Offers the known properties that no selected element has.
@@ -285,13 +340,26 @@ impl PropertiesPanel {
         let field = TextEdit::singleline(&mut text).hint_text(hint);
         let width = (ui.available_width() - BUTTON_WIDTH).max(BUTTON_WIDTH);
         let response = ui.add(field.desired_width(width));
-        if response.has_focus() {
+        let has_focus = response.has_focus();
+        let is_typed = self
+            .draft
+            .as_ref()
+            .is_some_and(|draft| draft.target == target);
+        if has_focus && !is_typed {
+            // Another field is left.
+            actions.extend(self.commit());
+        }
+        if has_focus || response.lost_focus() && is_typed {
+            if has_focus && text != before && target.preview(&text).is_some() {
+                self.wanted = Some((target.clone(), text.clone()));
+            }
             self.draft = Some(Draft {
                 target,
                 text,
                 before,
             });
-        } else if response.lost_focus() && self.draft.is_some() {
+        }
+        if response.lost_focus() && is_typed {
             actions.extend(self.commit());
         }
     }

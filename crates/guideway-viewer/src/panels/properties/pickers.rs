@@ -6,21 +6,22 @@ use eframe::egui::{Button, ComboBox, TextEdit, Ui};
 use guideway_document::Document;
 use guideway_layout::Direction;
 
-use super::draft::Target;
+use super::draft::{Subject, Target};
 use super::field::Common;
 use super::shown::Shown;
 use crate::action::Action;
 use crate::editing::EditTask;
 use crate::language::{direction_name, t};
 
-/// A choice of words; an empty one removes the property.
+/// A choice of words; an empty one removes the property. Returns the one under the pointer.
 pub(super) fn choice(
     ui: &mut Ui,
     target: Target,
     value: &Common,
     words: &[&str],
     actions: &mut Vec<Action>,
-) {
+) -> Option<(Target, String)> {
+    let mut hovered = None;
     let shown = match value {
         Common::Same(value) => value,
         Common::None => t("none"),
@@ -30,7 +31,11 @@ pub(super) fn choice(
     combo.selected_text(shown).show_ui(ui, |ui| {
         for word in words.iter().copied().chain([""]) {
             let label = if word.is_empty() { t("none") } else { word };
-            if ui.selectable_label(shown == label, label).clicked() && shown != label {
+            let response = ui.selectable_label(shown == label, label);
+            if response.hovered() {
+                hovered = Some((target.clone(), word.to_owned()));
+            }
+            if response.clicked() && shown != label {
                 match target.clone().edit(word) {
                     Ok(edit) => actions.push(Action::Edit(edit)),
                     Err(error) => actions.push(Action::Notify(error)),
@@ -38,20 +43,28 @@ pub(super) fn choice(
             }
         }
     });
+    hovered
 }
 
-pub(super) fn direction(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
+/// The direction of paths. Returns the one under the pointer.
+pub(super) fn direction(
+    ui: &mut Ui,
+    shown: &Shown,
+    actions: &mut Vec<Action>,
+) -> Option<(Target, String)> {
+    let mut hovered = None;
     let present = shown.facts.direction;
     let combo = ComboBox::from_id_salt("direction");
     let text = present.map_or(t("several values"), direction_name);
     combo.selected_text(text).show_ui(ui, |ui| {
         for direction in [Direction::Forward, Direction::Both] {
             let label = ui.selectable_label(present == Some(direction), direction_name(direction));
+            let target = shown.target(Subject::Direction(direction));
+            if label.hovered() {
+                hovered = Some((target.clone(), String::new()));
+            }
             if label.clicked() && present != Some(direction) {
-                let rows = Arc::clone(&shown.rows);
-                actions.push(Action::Edit(EditTask::edit(
-                    move |document: &mut Document| document.set_direction(&rows, direction),
-                )));
+                actions.extend(target.edit("").map(Action::Edit).ok());
             }
         }
         ui.separator();
@@ -63,6 +76,7 @@ pub(super) fn direction(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
             )));
         }
     });
+    hovered
 }
 
 pub(super) fn level(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {

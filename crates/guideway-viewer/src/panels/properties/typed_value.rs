@@ -4,7 +4,7 @@ use guideway_layout::Value;
 
 use super::field::FieldKind;
 use crate::language::{say, t};
-use crate::speed_unit::{SpeedUnit, shown_unit, typed_factor};
+use crate::units::{shown_unit, typed_number};
 
 /// A value that a user entered.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,52 +71,22 @@ impl TypedValue {
     }
 }
 
-/// Other units that a field understands: unit typed, unit of the field, factor.
-const CONVERSIONS: &[(&str, &str, f64)] = &[
-    ("mm/s", "m/s", 1e-3),
-    ("mm", "m", 1e-3),
-    ("cm", "m", 1e-2),
-    ("km", "m", 1e3),
-    ("°", "rad", std::f64::consts::PI / 180.0),
-    ("deg", "rad", std::f64::consts::PI / 180.0),
-    ("°/s", "rad/s", std::f64::consts::PI / 180.0),
-    ("deg/s", "rad/s", std::f64::consts::PI / 180.0),
-    ("t", "kg", 1e3),
-    ("min", "s", 60.0),
-    ("ms", "s", 1e-3),
-];
-
 /// A finite number in `unit`, which may be typed behind it, as may a unit that converts to it. A
 /// comma may stand for the decimal point.
 fn number(text: &str, unit: Option<&str>) -> Option<f64> {
-    let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.' || c == ',')? + 1;
-    let (digits, typed) = (text[..end].trim(), text[end..].trim());
-    let factor = match unit {
-        _ if typed.is_empty() => typed_factor(unit),
-        Some(unit) if typed == unit => 1.0,
-        Some(unit) => {
-            let speed = SpeedUnit::named(typed).filter(|_| unit == "m/s");
-            let known = CONVERSIONS
-                .iter()
-                .find(|(from, to, _)| (*from, *to) == (typed, unit));
-            speed
-                .map(|speed| speed.to_m_s(1.0))
-                .or(known.map(|known| known.2))?
+    typed_number(text, unit, |digits| {
+        let is_decimal_comma = digits.matches(',').count() == 1 && !digits.contains('.');
+        match is_decimal_comma {
+            true => digits.replace(',', ".").parse().ok(),
+            false => digits.parse().ok(),
         }
-        None => return None,
-    };
-    let is_decimal_comma = digits.matches(',').count() == 1 && !digits.contains('.');
-    let number: f64 = match is_decimal_comma {
-        true => digits.replace(',', ".").parse().ok()?,
-        false => digits.parse().ok()?,
-    };
-    Some(number * factor).filter(|number| number.is_finite())
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::speed_unit::set_speed_unit;
+    use crate::units::{LengthUnit, SpeedUnit, Units, set_units};
 
     fn speed(text: &str) -> Result<Option<TypedValue>, String> {
         TypedValue::parse(text, FieldKind::Number, Some("m/s"))
@@ -130,6 +100,13 @@ mod tests {
             };
             assert!((number - 1.5).abs() < 1e-12, "{text}: {number}");
         }
+        for text in ["3 mph", "4.4 ft/s", "264 ft/min"] {
+            let number = speed(text).unwrap().unwrap().as_value().number().unwrap();
+            assert!((number - 1.341_12).abs() < 1e-12, "{text}: {number}");
+        }
+        let length = |text| TypedValue::parse(text, FieldKind::Number, Some("m"));
+        assert_eq!(length("5 ft"), Ok(Some(TypedValue::Number(1.524))));
+        assert!(length("5 ft/s").is_err());
         for text in ["fast", "1.5 kg", "1,500.5,5", "1e999", "inf"] {
             assert!(speed(text).is_err(), "{text}");
         }
@@ -138,7 +115,10 @@ mod tests {
 
     #[test]
     fn numbers_without_a_unit_have_that_of_the_settings() {
-        set_speed_unit(SpeedUnit::KilometersPerHour);
+        set_units(Units {
+            speed: SpeedUnit::KilometersPerHour,
+            length: LengthUnit::Feet,
+        });
         for text in ["5.4", "5.4 km/h", "1.5 m/s"] {
             let Ok(Some(TypedValue::Number(number))) = speed(text) else {
                 panic!("{text}");
@@ -146,7 +126,9 @@ mod tests {
             assert!((number - 1.5).abs() < 1e-12, "{text}: {number}");
         }
         assert_eq!(speed("abc").unwrap_err(), "abc is no number in km/h");
-        set_speed_unit(SpeedUnit::MetersPerSecond);
+        let length = TypedValue::parse("5", FieldKind::Number, Some("m"));
+        assert_eq!(length, Ok(Some(TypedValue::Number(1.524))));
+        set_units(Units::default());
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::super::properties::{FieldKind, TypedValue, kind_of};
 use crate::editing::EditTask;
 use crate::language::{say, t};
 use crate::selection::level_names;
-use crate::speed_unit::shown_value;
+use crate::units::shown_value;
 
 /// The text of a cell; empty without a value. Values that differ per vehicle type are listed.
 pub(super) fn cell_text(layout: &Layout, of: Table, column: &Column, row: u32) -> String {

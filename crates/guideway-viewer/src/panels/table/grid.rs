@@ -10,7 +10,7 @@ use guideway_scene::Table;
 
 use super::cell::{CellDraft, cell_text};
 use crate::language::t;
-use crate::speed_unit::shown_unit;
+use crate::units::shown_unit;
 
 const ROW_HEIGHT: f32 = 20.0;
 const NAME_WIDTH: f32 = 170.0;
