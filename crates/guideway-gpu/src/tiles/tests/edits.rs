@@ -125,10 +125,9 @@ fn edit_refreshes_only_the_lines_of_its_clusters() {
     let Some(tiles) = tiles() else { return };
     let density = style(Shading::Density(ToneMap::Log));
     for (scene, style, has_few) in [
-        (plain(3000, 4.0), Style::default(), false),
-        (plain(3000, 4.0), Style::default(), true),
-        (mixed(3000, 4.0), Style::default(), false),
-        (plain(3000, 4.0), density, true),
+        (plain(6000, 4.0), Style::default(), false),
+        (mixed(6000, 4.0), Style::default(), false),
+        (plain(6000, 4.0), density, true),
     ] {
         let mut pair = Pair::new(&tiles, &scene, style);
         let view = |step: usize| view([50.0, 30.0], 3.0 + 0.01 * step as f64);
