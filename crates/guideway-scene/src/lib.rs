@@ -11,12 +11,11 @@
 //!   width.
 //! - The color of a point is that of the topmost covering path, composited over the paths below it
 //!   while it is translucent. A pixel is the mean over its square, of sRGB values as stored.
-//! - Density shading shows the mean number of paths that cover a pixel ([`density`]). Its caps are
-//!   butt ([`Shading::cap`]): a path that goes on as another one counts once where they meet.
+//! - Density shading shows the mean number of paths that cover a pixel ([`density`]).
 //!
 //! | files | content |
 //! |---|---|
-//! | `scene/`, `color`, `color_by`, `ramp`, `style`, `path_end`, `density` | appearance of the paths |
+//! | `scene/`, `color`, `color_by`, `ramp`, `style`, `density` | appearance of the paths |
 //! | `edit/`, `table` | changes of a scene and their inverses |
 //! | `cluster/` | the spatial index of paths, nodes and strokes |
 //! | `view`, `frame`, `strip` | the picture |
@@ -32,7 +31,6 @@ mod edit;
 mod error;
 mod frame;
 mod method;
-mod path_end;
 mod ramp;
 mod report;
 mod scene;
@@ -48,11 +46,10 @@ pub use edit::{Edit, EditError, Gesture, GesturePaths, Insertion, NewNode, NewSt
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, Prepared};
-pub use path_end::{CLOSED_M, PathEnd, open_ends};
 pub use ramp::{NumberColors, Palette, round_step};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
 pub use scene::{LayoutCopy, NoOpaqueColor, PathState, Scene, SceneError, SceneOptions};
 pub use strip::Strip;
-pub use style::{Cap, LineRule, Shading, Style};
+pub use style::{LineRule, Shading, Style};
 pub use table::Table;
 pub use view::View;

@@ -34,27 +34,6 @@ pub enum Shading {
     Density(ToneMap),
 }
 
-/// End of a stroke. Joints within a path are round with either.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cap {
-    /// All points within half the stroke width of the end.
-    Round,
-    /// No point within half the stroke width of the end and beyond it, as seen along the curve. A
-    /// closed path has no ends ([`crate::open_ends`]).
-    Butt,
-}
-
-impl Shading {
-    /// The caps of all strokes. Every method draws them.
-    pub fn cap(self) -> Cap {
-        match self {
-            Self::Color => Cap::Round,
-            // Round caps would count both paths where two meet.
-            Self::Density(_) => Cap::Butt,
-        }
-    }
-}
-
 /// Rule for the stroke width of a path at a scale. Every method uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LineRule {

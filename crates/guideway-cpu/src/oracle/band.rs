@@ -3,8 +3,6 @@
 use guideway_scene::Rgba;
 use guideway_spline::{Bounds, Point};
 
-use super::stroke::Stroke;
-
 /// Samples along each side of a pixel.
 const SIDE: usize = 16;
 const SAMPLES_PER_PIXEL: usize = SIDE * SIDE;
@@ -63,19 +61,18 @@ impl Band {
         self.samples.capacity() * size_of::<Sample>() + self.hits.capacity() * size_of::<u64>()
     }
 
-    /// Composites a path over every sample within its radius of the line from `start` to `end`, but
-    /// for those that it has covered before, as path number `order`, and those that its caps leave
-    /// out.
+    /// Composites `color` over every sample within the radius of the line from `start` to `end`
+    /// that path number `order` has not covered yet.
     pub(super) fn cover(
         &mut self,
         start: Point<f64>,
         end: Point<f64>,
-        stroke: &Stroke,
+        radius_px: f64,
         order: u32,
+        color: Rgba,
     ) {
-        let ink = premultiplied(stroke.color);
-        let shows_through = 1.0 - f32::from(stroke.color.a) / 255.0;
-        let radius_px = stroke.radius_px;
+        let ink = premultiplied(color);
+        let shows_through = 1.0 - f32::from(color.a) / 255.0;
         let along = end - start;
         let length_squared = along.dot(along);
         let origin = self.bounds_px.min;
@@ -86,8 +83,7 @@ impl Band {
 
         for row in first_row..last_row {
             for column in first_column..last_column {
-                let at = origin + Point::new(position(column), position(row));
-                let from_start = at - start;
+                let from_start = origin + Point::new(position(column), position(row)) - start;
                 // Nearest point of the line; a line without length is a point.
                 let fraction = if length_squared > 0.0 {
                     (from_start.dot(along) / length_squared).clamp(0.0, 1.0)
@@ -96,8 +92,7 @@ impl Band {
                 };
                 let apart = from_start - along * fraction;
                 let sample = &mut self.samples[row * self.columns + column];
-                let is_near = apart.dot(apart) <= radius_px * radius_px;
-                if is_near && sample.covered_by != order && !stroke.leaves_out(at) {
+                if apart.dot(apart) <= radius_px * radius_px && sample.covered_by != order {
                     sample.covered_by = order;
                     for (below, ink) in sample.over.iter_mut().zip(ink) {
                         *below = ink + *below * shows_through;

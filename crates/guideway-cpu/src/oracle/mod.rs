@@ -3,14 +3,13 @@
 //!
 //! A pixel is the mean of 16 x 16 samples. Paths are composited sample by sample, from the lowest
 //! draw rank to the highest; a path covers a sample that is within its radius of a chord of its
-//! curve, and that no butt cap leaves out. The oracle has no index and shares no code with other
-//! methods, not even the spline mathematics.
+//! curve. The oracle has no index and shares no code with other methods, not even the spline
+//! mathematics.
 //!
 //! Cost: O(paths x pixels in the box of each path).
 
 mod band;
 mod chords;
-mod stroke;
 #[cfg(test)]
 mod tests;
 
@@ -18,15 +17,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, Cap, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared,
-    RenderError, Report, Shading, Stage, Style, View, density, elapsed_ms,
+    Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
+    Report, Shading, Stage, Style, View, density, elapsed_ms,
 };
-use guideway_scene::{Edit, Gesture, Scene};
+use guideway_scene::{Edit, Gesture, Rgba, Scene};
 use guideway_spline::{Bounds, Point};
 
 use band::Band;
 use chords::Chords;
-use stroke::{Stroke, cuts};
 
 const NAME: &str = "oracle";
 
@@ -70,6 +68,15 @@ struct PreparedOracle {
     memory_bytes: u64,
     /// Empty: the oracle prepares nothing.
     preparation: Preparation,
+}
+
+/// A path that may be visible.
+struct Stroke {
+    path: u32,
+    color: Rgba,
+    radius_px: f64,
+    /// Bounding box of all that the path covers.
+    bounds_px: Bounds<f64>,
 }
 
 impl Prepared for PreparedOracle {
@@ -186,8 +193,7 @@ impl PreparedOracle {
         for &path in self.scene.draw_order() {
             cancel.check()?;
             let runs = self.scene.layout().paths.get(path as usize).runs();
-            let points_px = runs.clone();
-            let points_px = points_px.flat_map(|run| run.iter().map(|p| view.pixel_from_world(p)));
+            let points_px = runs.flat_map(|run| run.iter().map(|p| view.pixel_from_world(p)));
             let width_m = self.scene.width_m(path);
             let radius_px = style.line_rule.radius_px(width_m, view.px_per_m());
             let bounds_px = Bounds::of_points(points_px).map(|hull| hull.inflated(radius_px));
@@ -197,10 +203,6 @@ impl PreparedOracle {
                     color: self.scene.color(path),
                     radius_px,
                     bounds_px,
-                    cuts: match style.shading.cap() {
-                        Cap::Round => [None, None],
-                        Cap::Butt => cuts(runs, view, radius_px),
-                    },
                 });
             }
         }
@@ -221,7 +223,7 @@ impl PreparedOracle {
         for segment in path.runs().flat_map(|run| run.segments()) {
             let control_px = segment.map(|p| view.pixel_from_world(p));
             chords.of_segment(&control_px, &mut |start, end| {
-                band.cover(start, end, stroke, order);
+                band.cover(start, end, stroke.radius_px, order, stroke.color);
                 lines += 1;
             });
         }

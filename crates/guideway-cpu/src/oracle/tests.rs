@@ -252,22 +252,6 @@ fn density_is_the_mean_number_of_paths() {
 }
 
 #[test]
-fn a_path_that_goes_on_as_another_one_counts_once_in_density() {
-    let style = Style {
-        shading: Shading::Density(ToneMap::Linear),
-        ..wide(4.0)
-    };
-    let ends = [0.0, 7.0, 16.0].map(|x| point(x, 5.0));
-    let whole = [line(ends[0], ends[2])];
-    let halves = [line(ends[0], ends[1]), line(ends[2], ends[1])];
-    let [whole, halves] = [&whole[..], &halves].map(|paths| {
-        let view = view(20, 10);
-        draw(layout(paths), Rgba::BLACK, &view, &style).0
-    });
-    assert_eq!(whole, halves);
-}
-
-#[test]
 fn bands_change_no_bit_and_too_little_memory_is_rejected() {
     let paths = [
         curve(&[(0.0, 9.0), (40.0, -30.0), (-9.0, 70.0), (60.0, 30.0)].map(|(x, y)| point(x, y))),

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::constants::{MAX_SEGMENTS, SEGMENTS_BIT, WHOLE_PATH};
+use super::constants::{SEGMENTS_BIT, WHOLE_PATH};
 
 /// Parameters of a frame. WGSL: `Frame` of `shared/frame.wgsl`, which documents each field.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -130,7 +130,7 @@ impl Stroke {
 
     /// Returns `true` if the stroke has segments.
     pub(crate) fn is_drawn(self) -> bool {
-        self.segments() > 0
+        (self.extent & !WHOLE_PATH) >> SEGMENTS_BIT > 0
     }
 
     /// Returns `true` if the stroke is a whole path.
@@ -140,11 +140,7 @@ impl Stroke {
 
     /// Number of control points, if the stroke has segments.
     pub(crate) fn points(self) -> u32 {
-        self.segments() + 3
-    }
-
-    fn segments(self) -> u32 {
-        self.extent >> SEGMENTS_BIT & MAX_SEGMENTS
+        ((self.extent & !WHOLE_PATH) >> SEGMENTS_BIT) + 3
     }
 }
 

@@ -3,7 +3,6 @@
 
 use std::ops::Range;
 
-use guideway_scene::PathEnd;
 use guideway_spline::{Bounds, Point};
 
 use super::bits::set_bits;
@@ -127,15 +126,6 @@ impl<'a, const C: usize> ClusterInTile<'a, C> {
         let ranks = self.job.ranks;
         let rank = ranks.map_or(path, |ranks| ranks[path as usize]);
         PieceRef { rank, key, piece }
-    }
-
-    /// The end of a path of the cluster as the frame shows it.
-    pub(crate) fn shown(&self, end: PathEnd) -> PathEnd {
-        let gesture = self.job.ctx.gesture;
-        match gesture.and_then(|gesture| gesture.map_of(self.visible.cluster)) {
-            Some(by) => end.mapped(by),
-            None => end,
-        }
     }
 
     /// The path of a member of the cluster.

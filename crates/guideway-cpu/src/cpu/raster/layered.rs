@@ -1,14 +1,13 @@
 //! Draws the pieces of a tile in several colors, by descending draw rank: gathers sixteen lines at
 //! a time, adds them to the shape of their path, and composites the shape below those before it.
 
-use guideway_scene::{Cap, Rgba, open_ends};
+use guideway_scene::Rgba;
 use guideway_spline::Point;
 
 use super::bits::set_bits;
 use super::caps::CapTables;
 use super::cluster_in_tile::{ClusterInTile, PieceRef};
 use super::coverage_mask::CoverageMask;
-use super::half_disc::HalfDisc;
 use super::job::{BandJob, Tile};
 use super::line_batch::LineBatch;
 use crate::cpu::flatten::cluster_lines::ClusterLines;
@@ -26,14 +25,7 @@ const STROKES_PER_SHAPE: usize = 32;
 struct Layer {
     color: Rgba,
     /// The only path of the shape; `None` if several paths of one opaque color share it.
-    alone: Option<LayerPath>,
-}
-
-/// A path, and the key of the visible cluster that draws it.
-#[derive(Clone, Copy, Default, PartialEq)]
-struct LayerPath {
-    path: u32,
-    key: u32,
+    alone: Option<u32>,
 }
 
 /// A tile that is being drawn, and the lines that wait for a full batch.
@@ -47,7 +39,7 @@ pub(crate) struct LayeredTile<'a> {
     x: [[f32; LANES]; 2],
     y: [[f32; LANES]; 2],
     /// Path of each line.
-    paths: [LayerPath; LANES],
+    paths: [u32; LANES],
     len: usize,
     /// Half the stroke width of all these lines, in columns.
     radius: f32,
@@ -73,7 +65,7 @@ impl<'a> LayeredTile<'a> {
             counts,
             x: [[0.0; LANES]; 2],
             y: [[0.0; LANES]; 2],
-            paths: [LayerPath::default(); LANES],
+            paths: [0; LANES],
             len: 0,
             radius: 0.0,
             layer: None,
@@ -90,18 +82,15 @@ impl<'a> LayeredTile<'a> {
     /// Adds a piece below all others.
     #[inline(always)]
     pub(crate) fn add(&mut self, piece_ref: &PieceRef) {
-        let key = piece_ref.key;
-        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, key);
+        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, piece_ref.key);
         let piece = piece_ref.piece as usize;
         match cluster.lines() {
             ClusterLines::Cached(unit_m, lines) => {
                 let path = cluster.path(lines.member(piece));
-                let path = LayerPath { path, key };
                 self.add_piece(&cluster.map_cached(*unit_m, lines), piece, path);
             }
             ClusterLines::Clipped(lines) => {
                 let path = cluster.path(lines.member(piece));
-                let path = LayerPath { path, key };
                 self.add_piece(&cluster.map_clipped(lines), piece, path);
             }
             ClusterLines::None => {}
@@ -113,9 +102,10 @@ impl<'a> LayeredTile<'a> {
         &mut self,
         mapped: &TileLines<'_, T, LAYERED>,
         piece: usize,
-        path: LayerPath,
+        path: u32,
     ) {
-        let radius = columns::<LAYERED>(self.radius_px(path.path));
+        let radius_px = self.job.common_radius_px;
+        let radius = columns::<LAYERED>(radius_px.unwrap_or_else(|| self.job.ctx.radius_px(path)));
         let bounds = mapped.lines.bounds(piece);
         let reach = Point::new(radius + 1.0, radius + 1.0);
         let [min, max] = [bounds.min, bounds.max].map(|p| p * mapped.scale + mapped.offset);
@@ -142,13 +132,6 @@ impl<'a> LayeredTile<'a> {
         }
     }
 
-    /// Half the stroke width of a path, in pixels.
-    #[inline(always)]
-    fn radius_px(&self, path: u32) -> f64 {
-        let common_px = self.job.common_radius_px;
-        common_px.unwrap_or_else(|| self.job.ctx.radius_px(path))
-    }
-
     /// Strokes the lines that wait.
     #[inline(always)]
     fn flush(&mut self) {
@@ -172,8 +155,8 @@ impl<'a> LayeredTile<'a> {
 
     /// Starts a new shape unless `path` belongs to the one in the mask.
     #[inline(always)]
-    fn choose_layer(&mut self, path: LayerPath) {
-        let color = self.job.ctx.scene.color(path.path);
+    fn choose_layer(&mut self, path: u32) {
+        let color = self.job.ctx.scene.color(path);
         let is_shared = color.is_opaque() && self.counts.is_none();
         let layer = Layer {
             color,
@@ -190,28 +173,12 @@ impl<'a> LayeredTile<'a> {
     #[inline(always)]
     fn end_shape(&mut self) {
         if let Some(layer) = self.layer.take() {
-            if self.job.ctx.style.shading.cap() == Cap::Butt {
-                layer.alone.into_iter().for_each(|path| self.cut_ends(path));
-            }
             match &mut self.counts {
                 Some(counts) => self.mask.count(counts),
                 None => self.mask.composite(layer.color),
             }
         }
         self.strokes = 0;
-    }
-
-    /// Takes out of the shape what the butt caps of its path leave out.
-    fn cut_ends(&mut self, LayerPath { path, key }: LayerPath) {
-        let ctx = self.job.ctx;
-        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, key);
-        let radius_px = self.radius_px(path);
-        let ends = open_ends(ctx.scene.layout().paths.get(path as usize));
-        for end in ends.into_iter().flatten() {
-            let end = cluster.shown(end);
-            let end_px = ctx.transform.pixel(end.at) - self.tile.corner;
-            self.mask.remove(&HalfDisc::new(&end, end_px, radius_px));
-        }
     }
 
     /// Draws the lines that remain.

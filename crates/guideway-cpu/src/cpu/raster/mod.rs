@@ -10,7 +10,6 @@
 //! | `line_batch`                  | 16 lines side by side: boxes, slopes, capsules           |
 //! | `capsule`, `caps`             | sample spans of one stroke; tables of its round caps     |
 //! | `fixed_point`                 | the same three in 16-bit integers                        |
-//! | `half_disc`                   | what butt caps leave out                                 |
 //! | `coverage_mask`, `bits`       | the samples of a tile as bits                            |
 //! | `resolve`, `background`       | coverage to RGBA                                         |
 //! | `full_pixel_cache`            | pixels known to stay full while the view zooms           |
@@ -24,7 +23,6 @@ pub(super) mod cluster_in_tile;
 pub(super) mod coverage_mask;
 pub(super) mod fixed_point;
 pub(super) mod full_pixel_cache;
-mod half_disc;
 pub(super) mod job;
 pub(super) mod layered;
 pub(super) mod line_batch;

@@ -17,7 +17,6 @@ pub(crate) const FILES: &[(&str, &str)] = files![
     "cache/invalidate_lines.wgsl",
     "cache/line_blocks.wgsl",
     "cache/scroll.wgsl",
-    "composite/butt_caps.wgsl",
     "composite/composite_row.wgsl",
     "composite/layers.wgsl",
     "composite/loop_count.wgsl",

@@ -5,7 +5,6 @@
 // Bindings: frame, tile_lists, references, lines, line_ranks, styles -> pixels, counters. One
 // workgroup per tile; a thread owns one sample row and writes one pixel.
 
-// import: composite/butt_caps.wgsl
 // import: composite/row_lists.wgsl
 // import: composite/loop_count.wgsl
 // import: shared/tile.wgsl
@@ -16,8 +15,6 @@ override IS_DENSITY: bool;
 
 var<workgroup> capsules: array<Capsule, BATCH_LINES>;
 var<workgroup> ranks: array<u32, BATCH_LINES>;
-// True where the upper and the lower end of a capsule are ends of a path.
-var<workgroup> path_ends: array<vec2<bool>, BATCH_LINES>;
 var<workgroup> colors: array<u32, BATCH_LINES>;
 // Red, green, blue and opacity sums per pixel.
 var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
@@ -50,22 +47,15 @@ fn take_transmittance(first_sample: u32, bits: u32, opacity: f32) -> f32 {
     return taken;
 }
 
-// Composites the gathered samples of a path below all before, and starts the next path. `cut`: the
-// samples that its butt caps leave out.
-fn composite_path(
-    row: u32,
-    color: u32,
-    gathered: ptr<function, SampleRow>,
-    cut: ptr<function, SampleRow>,
-) {
+// Composites the gathered samples of a path below all before, and starts the next path.
+fn composite_path(row: u32, color: u32, gathered: ptr<function, SampleRow>) {
     let opacity = f32(color >> 24u) / 255.0;
     let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
     for (var word = 0u; word < ROW_WORDS; word++) {
         loops++;
         let all = (*gathered)[word];
-        let fresh = all & ~select(covered[word], (*cut)[word], IS_DENSITY);
+        let fresh = select(all & ~covered[word], all, IS_DENSITY);
         (*gathered)[word] = 0u;
-        (*cut)[word] = 0u;
         for (var left = fresh; left != 0u;) {
             loops++;
             let of_word = firstTrailingBit(left) / SAMPLES_PER_ROW;
@@ -85,26 +75,14 @@ fn composite_path(
     }
 }
 
-// Returns whether the upper and the lower end of the capsule of a line are ends of a path.
-fn upper_and_lower(index: u32, capsule: Capsule) -> vec2<bool> {
-    let words = words_of_line(index);
-    let line = line_of(words);
-    let ends = path_ends_of(words);
-    return select(ends.yx, ends, dot(line.zw - line.xy, capsule.along) >= 0.0);
-}
-
 // Loads lines, and lists each for the pixel rows in which it may be visible.
 fn load_batch(tile: Tile, thread: u32, first: u32, end: u32) {
     clear_row_lists(thread);
     if thread < BATCH_LINES && first + thread < end {
         let capsule = capsule_of_reference(tile, first + thread);
-        let line = references[first + thread];
-        let rank = line_ranks[line];
+        let rank = line_ranks[references[first + thread]];
         count_reads(2u);
         capsules[thread] = capsule;
-        if IS_DENSITY {
-            path_ends[thread] = upper_and_lower(line, capsule);
-        }
         ranks[thread] = rank;
         colors[thread] = style_of(rank).color;
         insert_line(thread, capsule);
@@ -148,7 +126,6 @@ fn main(
     var rank = 0xffffffffu;
     var color = 0u;
     var gathered: SampleRow;
-    var cut: SampleRow;
     for (var first = list.x; first < list.y; first += BATCH_LINES) {
         load_batch(tile, thread, first, list.y);
         // Iterations of loading lines and closing pixels.
@@ -159,14 +136,11 @@ fn main(
                 loops += 1u + ROW_WORDS;
                 let line = word * 32u + firstTrailingBit(left);
                 if ranks[line] != rank {
-                    composite_path(thread, color, &gathered, &cut);
+                    composite_path(thread, color, &gathered);
                     rank = ranks[line];
                     color = colors[line];
                 }
                 cover(&gathered, capsules[line], thread);
-                if IS_DENSITY {
-                    add_cuts(&cut, capsules[line], path_ends[line], thread);
-                }
             }
         }
         if IS_DENSITY {
@@ -175,7 +149,7 @@ fn main(
             break;
         }
     }
-    composite_path(thread, color, &gathered, &cut);
+    composite_path(thread, color, &gathered);
     fold_loop_count();
     workgroupBarrier();
     report_loop_count(thread);

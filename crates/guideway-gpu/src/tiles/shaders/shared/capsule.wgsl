@@ -102,18 +102,13 @@ fn row_span(capsule: Capsule, row: u32) -> vec2u {
     let y = plus_half(row);
     let left = disc_chord(capsule, y, capsule.left_y);
     let right = disc_chord(capsule, y, capsule.right_y);
-    return samples_between(row, left.x - left.y, right.x + right.y);
-}
-
-// Samples of a row from `left` to `right`.
-fn samples_between(row: u32, left: f32, right: f32) -> vec2u {
     // The first sample of the row and its distance to the next, in lattice steps.
     let step = SAMPLE_ROWS / SAMPLES_PER_ROW;
     let first_x = plus_half(((FIRST_COLUMNS >> (2u * (row % SAMPLE_ROWS))) & 3u) % step);
     let per_step = 1.0 / f32(step);
     let most = f32(ROW_WORDS * 32u);
-    let low = clamp((left - (first_x + BORDER_SLACK)) * per_step + 0.5, 0.0, most);
-    let high = clamp((right - (first_x - BORDER_SLACK)) * per_step + 0.5, 0.0, most);
+    let low = clamp((left.x - left.y - (first_x + BORDER_SLACK)) * per_step + 0.5, 0.0, most);
+    let high = clamp((right.x + right.y - (first_x - BORDER_SLACK)) * per_step + 0.5, 0.0, most);
     let first = round_to_u32(low);
     return vec2u(first, max(first, round_to_u32(high)));
 }
