@@ -171,14 +171,8 @@ fn all() -> Vec<Result<DeviceCandidate, BoxError>> {
             let name = format!("{} {variant}", structure.name());
             let method = Box::new(tree(structure, variant)?);
             let tolerances = [tolerance, COLORED_SUB_SAMPLES];
-            // Half of the variants are of either structure.
-            let turns = TREES.len() / 2;
-            Ok(variant_candidate(
-                name,
-                method,
-                tolerances,
-                (number % turns, turns),
-            ))
+            let turn = (number, TREES.len());
+            Ok(variant_candidate(name, method, tolerances, turn))
         });
     let tiles = tiles().map(|tiles| DeviceCandidate {
         name: "gpu".to_owned(),

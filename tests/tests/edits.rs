@@ -54,8 +54,17 @@ fn tested_methods() -> Vec<TestedMethod> {
     .collect()
 }
 
-/// Random sequences of edits and gestures per method.
-const SEQUENCES: u64 = 200;
+/// Random sequences of edits and gestures per method, unless a variable sets another number: a
+/// software device takes half a second for each.
+const SEQUENCES: u64 = 80;
+const SEQUENCES_VARIABLE: &str = "GUIDEWAY_SEQUENCES";
+
+fn sequences() -> u64 {
+    let set = std::env::var(SEQUENCES_VARIABLE);
+    set.map_or(SEQUENCES, |text| {
+        text.parse().expect("a number of sequences")
+    })
+}
 
 fn sketch() -> Sketch {
     Sketch::new(72, 48)
@@ -99,7 +108,7 @@ fn gestures_between_edits_leave_no_trace() {
         if tested.name == "oracle" {
             continue;
         }
-        for seed in 0..SEQUENCES {
+        for seed in 0..sequences() {
             if let Err(error) = tested.check_gestures(seed) {
                 panic!("{}, seed {seed}: {error}", tested.name);
             }

@@ -90,8 +90,8 @@ fn test() -> Result<()> {
         check_advisories(&deny, manifest)?;
     }
     heading("fuzzing");
-    // Nine seconds each.
-    fuzz(&["0.15".to_owned()])
+    // Five seconds each.
+    fuzz(&["0.08".to_owned()])
 }
 
 /// Tests the Python package: its own files beside the extension module that the workspace built.

@@ -9,7 +9,7 @@ const LIF_HEAD: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [
     {"nodeId": "B", "nodePosition": {"x": 10, "y": 0}}], "edges": ["#;
 
 const MILLION: usize = 1_000_000;
-/// Elements that are read: with so many a quadratic step would take minutes.
+/// Elements that are read: a quadratic step over that number takes minutes.
 const MANY: usize = 250_000;
 
 /// Generates the file of a name in a folder of bad files.

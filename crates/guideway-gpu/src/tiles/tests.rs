@@ -147,7 +147,6 @@ fn device_limits_do_not_change_the_picture() {
     for (scene, shading) in [
         (plain(1500, 8.0), Shading::Color),
         (mixed(1500, 8.0), Shading::Color),
-        (colors::opaque(layout(1500, 8.0)), Shading::Color),
         (plain(1500, 8.0), Shading::Density(ToneMap::Log)),
     ] {
         let style = style(shading);
