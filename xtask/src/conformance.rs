@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 
 use crate::prerequisites::conformance_python;
-use crate::step::{cargo, command};
+use crate::step::{build_with_workspace, command};
 
 /// Runs the comparison with the arguments of `cargo xtask conformance`.
 pub(crate) fn run(args: &[String]) -> Result<()> {
@@ -15,8 +15,7 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
         return Ok(());
     };
     let python = conformance_python()?;
-    // Built with the workspace and optimized as the tests are, so that its dependencies serve both.
-    cargo(&["build", "--quiet", "--workspace", "--bin", "guideway"]).run()?;
+    build_with_workspace()?;
     let folder = std::env::current_exe()?;
     let folder = folder.parent().context("xtask lies in no folder")?;
     let guideway = folder.join("guideway");

@@ -14,7 +14,7 @@ use xtask::module_graph::workspace_circles;
 use xtask::style::check_repository;
 
 use prerequisites::{CARGO_DENY, CARGO_FUZZ, MDBOOK};
-use step::{STARTED, cargo, elapsed_s, heading};
+use step::{STARTED, build_with_workspace, cargo, elapsed_s, heading};
 
 const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licenses (what CI runs)
@@ -132,20 +132,6 @@ fn python_package(python: &Path) -> Result<()> {
         "--ignore-missing-imports",
         "python/tests",
     ])
-}
-
-/// Builds what the tests leave out, with the workspace, as for the tests: alone it would rebuild
-/// its dependencies with other features.
-fn build_with_workspace() -> Result<()> {
-    cargo(&[
-        "build",
-        "--quiet",
-        "--workspace",
-        "--lib",
-        "--example",
-        "fuzz",
-    ])
-    .run()
 }
 
 /// Checks the formats crate with each of its formats alone, and the facade with LIF alone.

@@ -41,6 +41,15 @@ pub(crate) fn cargo(args: &[&str]) -> Step {
     command(env!("CARGO")).args(args)
 }
 
+/// Builds the libraries, the command and the fuzzer with the workspace. The example brings the
+/// features that dependencies of tests have: without them crates would be built anew.
+pub(crate) fn build_with_workspace() -> Result<()> {
+    let targets = ["--lib", "--bin", "guideway", "--example", "fuzz"];
+    cargo(&["build", "--quiet", "--workspace"])
+        .args(targets)
+        .run()
+}
+
 impl Step {
     pub(crate) fn args<A: AsRef<OsStr>>(mut self, args: impl IntoIterator<Item = A>) -> Self {
         self.0.args(args);
