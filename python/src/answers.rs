@@ -145,13 +145,10 @@ pub(crate) struct Change {
 
 impl Change {
     pub(crate) fn of(found: &Changes<'_>, of: &ElementChange) -> Self {
-        let (change, distance_m) = match of.change {
-            Kind::Added => ("added", None),
-            Kind::Removed => ("removed", None),
-            Kind::Renamed => ("renamed", None),
-            Kind::Moved { distance_m } => ("moved", Some(distance_m)),
-            Kind::Reshaped { greatest_m } => ("reshaped", Some(greatest_m)),
-            Kind::Set(_) => ("set", None),
+        let distance_m = match of.change {
+            Kind::Moved { distance_m } => Some(distance_m),
+            Kind::Reshaped { greatest_m } => Some(greatest_m),
+            _ => None,
         };
         let values = found.values(of);
         let (column, vehicle_type, before, after) = match values {
@@ -166,7 +163,7 @@ impl Change {
         Self {
             element: of.element.name().to_owned(),
             id: found.id(of).to_owned(),
-            change: change.to_owned(),
+            change: of.change.name().to_owned(),
             to: found.new_id(of).map(str::to_owned),
             distance_m,
             column,

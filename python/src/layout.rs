@@ -232,10 +232,7 @@ impl PyLayout {
             lateral_acceleration_m_s2,
             ..RouteOptions::default()
         };
-        let only = match self.layout.paths.vehicle_types().names() {
-            [one] => Some(one.as_str()),
-            _ => None,
-        };
+        let only = self.layout.paths.vehicle_types().only_name();
         let route = py.detach(|| {
             let router = Router::new(&self.layout, vehicle_type.or(only), &options)?;
             router.route(&router.place(start)?, &router.place(goal)?)

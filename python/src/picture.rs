@@ -12,7 +12,7 @@ use guideway::cpu::Cpu;
 use guideway::layout::Layout;
 use guideway::scene::{ColorBy, Frame, FrameSize, Scene, SceneOptions, View};
 use guideway::spline::{Bounds, Point};
-use guideway::{SaveError, replace_file, write_png_by};
+use guideway::{SaveError, save_png_by, write_png_by};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -53,8 +53,10 @@ impl RenderArgs {
         let mut picture = Picture::new(scene, size);
         if self.site {
             let title = self.title.clone();
-            picture.decorations = Decorations::site(String::new());
-            picture.decorations.title = title;
+            picture.decorations = Decorations {
+                title,
+                ..Decorations::site("")
+            };
         }
         picture.decorations.has_legend = self.color_by.is_some();
         if let Some((min_x, min_y, max_x, max_y)) = self.view {
@@ -168,13 +170,10 @@ impl PyPicture {
             .map(|own| own.to_string_lossy().to_lowercase());
         py.detach(|| match extension.as_deref() {
             Some("png") => {
-                let bytes = self.png_bytes()?;
-                let saved = replace_file(&path, |file| {
-                    io::Write::write_all(file, &bytes).map_err(|problem| SaveError {
-                        path: path.clone(),
-                        problem,
-                    })
-                });
+                let header = self.picture.png_header().map_err(exception)?;
+                let size = self.frame.size();
+                let saved =
+                    save_png_by::<_, ComposeError>(&path, size, &header, |sink| sink(&self.frame));
                 saved.map_err(exception)
             }
             Some(own @ ("svg" | "pdf")) => {

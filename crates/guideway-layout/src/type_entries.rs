@@ -74,6 +74,14 @@ impl TypeEntries {
         &self.names
     }
 
+    /// The vehicle type, if the table names one only.
+    pub fn only_name(&self) -> Option<&str> {
+        match self.names() {
+            [one] => Some(one),
+            _ => None,
+        }
+    }
+
     /// Rows of the entries of an element; empty if it is open to all types.
     ///
     /// # Panics

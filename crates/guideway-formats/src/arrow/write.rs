@@ -33,7 +33,7 @@ use crate::write_error::{WriteError, WriteProblem, fail};
 /// # Ok::<(), guideway_formats::arrow::WriteError>(())
 /// ```
 pub struct ArrowWriter<W: Write = NewFile> {
-    /// Of the stream, for messages.
+    /// Name of the stream in messages.
     path: PathBuf,
     file: IpcFile<W>,
     ids: IdCells,

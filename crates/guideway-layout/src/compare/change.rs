@@ -54,6 +54,20 @@ pub enum Change {
     Set(ChangedValue),
 }
 
+impl Change {
+    /// Name of the kind, in lower case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Added => "added",
+            Self::Removed => "removed",
+            Self::Renamed => "renamed",
+            Self::Moved { .. } => "moved",
+            Self::Reshaped { .. } => "reshaped",
+            Self::Set(_) => "set",
+        }
+    }
+}
+
 /// A value of an element that has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChangedValue {

@@ -45,20 +45,21 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "not_stored": written.losses_json(),
         "ms": { "read": read_ms, "write": write_ms, "total": read_ms + write_ms },
     });
-    out.beside(&args.output).report("convert", &body, || {
-        let text = format!(
-            "{}: {}, {}\n",
-            shown_path(&args.output),
-            text::counted(layout.paths.len() as u64, "path"),
-            text::bytes(bytes)
-        );
-        text + &written.losses_text()
-            + &format!(
-                "took {}: reading {}, writing {}\n",
-                text::time(read_ms + write_ms),
-                text::time(read_ms),
-                text::time(write_ms)
-            )
-    })?;
+    out.beside(Some(&args.output))
+        .report("convert", &body, || {
+            let text = format!(
+                "{}: {}, {}\n",
+                shown_path(&args.output),
+                text::counted(layout.paths.len() as u64, "path"),
+                text::bytes(bytes)
+            );
+            text + &written.losses_text()
+                + &format!(
+                    "took {}: reading {}, writing {}\n",
+                    text::time(read_ms + write_ms),
+                    text::time(read_ms),
+                    text::time(write_ms)
+                )
+        })?;
     Ok(Exit::Clean)
 }

@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let inputs = || [args.input.path.as_path(), args.script.as_path()];
     input::check_stdin_paths(inputs())?;
     let script = read_script(&args.script)?;
-    let output = args.output.as_ref().filter(|_| !args.dry_run);
+    let output = args.output.as_deref().filter(|_| !args.dry_run);
     let target = output.map(|path| LayoutOutput::new(path, args.to, inputs(), out));
     let target = target.transpose()?;
     let (layout, read_ms) = input::read_all(std::slice::from_ref(&args.input), out)?;
@@ -77,7 +77,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "not_stored": written.as_ref().map_or(json!([]), Written::losses_json),
         "ms": { "read": read_ms, "edit": edit_ms, "write": write_ms, "total": total_ms },
     });
-    let out = output.map_or(*out, |output| out.beside(output));
+    let out = out.beside(output);
     out.report("edit", &body, || {
         let lines = steps
             .iter()

@@ -67,16 +67,17 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "bytes": bytes,
         "ms": { "total": took_ms },
     });
-    out.beside(&args.output).report("generate", &body, || {
-        format!(
-            "{}: {} of {}, {}\ntook {}\n",
-            shown_path(&args.output),
-            text::counted(args.paths as u64, "path"),
-            text::counted(segments as u64, "segment"),
-            text::bytes(bytes),
-            text::time(took_ms)
-        )
-    })?;
+    out.beside(Some(&args.output))
+        .report("generate", &body, || {
+            format!(
+                "{}: {} of {}, {}\ntook {}\n",
+                shown_path(&args.output),
+                text::counted(args.paths as u64, "path"),
+                text::counted(segments as u64, "segment"),
+                text::bytes(bytes),
+                text::time(took_ms)
+            )
+        })?;
     Ok(Exit::Clean)
 }
 

@@ -175,21 +175,22 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "total": total_ms,
         },
     });
-    out.beside(&args.output).report("network", &body, || {
-        let mut words = made.report.lines(&options).join("\n");
-        words += "\ncheck: ";
-        words += &match kinds.is_empty() {
-            true => "no findings\n".to_owned(),
-            false => {
-                let kinds = kinds
-                    .iter()
-                    .map(|k| format!("{} {} ({})", k.count, k.code, k.severity));
-                kinds.collect::<Vec<_>>().join(", ") + "\n"
-            }
-        };
-        words += &written.losses_text();
-        let (name, size) = (shown_path(&args.output), text::bytes(bytes));
-        words + &format!("{name}: {size}, took {}\n", text::time(total_ms))
-    })?;
+    out.beside(Some(&args.output))
+        .report("network", &body, || {
+            let mut words = made.report.lines(&options).join("\n");
+            words += "\ncheck: ";
+            words += &match kinds.is_empty() {
+                true => "no findings\n".to_owned(),
+                false => {
+                    let kinds = kinds
+                        .iter()
+                        .map(|k| format!("{} {} ({})", k.count, k.code, k.severity));
+                    kinds.collect::<Vec<_>>().join(", ") + "\n"
+                }
+            };
+            words += &written.losses_text();
+            let (name, size) = (shown_path(&args.output), text::bytes(bytes));
+            words + &format!("{name}: {size}, took {}\n", text::time(total_ms))
+        })?;
     Ok(Exit::Clean)
 }

@@ -52,10 +52,10 @@ impl Output {
         }
     }
 
-    /// The output of reports beside that of a file, which may be standard output.
-    pub(crate) fn beside(self, file: &Path) -> Self {
+    /// The output of reports beside that of a file, if there is one, which may be standard output.
+    pub(crate) fn beside(self, file: Option<&Path>) -> Self {
         Self {
-            is_beside: is_stdout(file),
+            is_beside: file.is_some_and(is_stdout),
             ..self
         }
     }

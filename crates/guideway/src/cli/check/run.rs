@@ -77,10 +77,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         }
         Format::Json => report(args, &Output::new(true, false), &files, &times)?,
         Format::Table => {
-            let out = args
-                .picture
-                .as_deref()
-                .map_or(*out, |file| out.beside(file));
+            let out = out.beside(args.picture.as_deref());
             report(args, &out, &files, &times)?;
         }
     }

@@ -89,7 +89,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         picture::write([&old, &new], &found, picture, out)?;
     }
     let report = Report::new(files, &found, [read_ms, compare_ms]);
-    let out = output.map_or(*out, |output| out.beside(output));
+    let out = out.beside(output);
     out.report("diff", &report.json(&found), || match args.form {
         Form::Text => report.text(&found, args.max),
         Form::Markdown => report.markdown(&found, args.max),

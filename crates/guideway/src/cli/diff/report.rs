@@ -27,7 +27,7 @@ impl Report {
     pub(super) fn new(files: [&Path; 2], found: &Changes<'_>, ms: [f64; 2]) -> Self {
         let mut counts = BTreeMap::new();
         for of in found.elements.iter() {
-            let key = (of.element.name(), kind_name(of.change));
+            let key = (of.element.name(), of.change.name());
             *counts.entry(key).or_default() += 1;
         }
         let name = |file: &Path| text::single_line(&shown_path(file), MAX_NAME);
@@ -147,17 +147,6 @@ fn rest(found: &Changes<'_>, max: usize) -> Option<String> {
     (more > 0).then(|| text::counted(more, "more element"))
 }
 
-fn kind_name(change: Change) -> &'static str {
-    match change {
-        Change::Added => "added",
-        Change::Removed => "removed",
-        Change::Renamed => "renamed",
-        Change::Moved { .. } => "moved",
-        Change::Reshaped { .. } => "reshaped",
-        Change::Set(_) => "set",
-    }
-}
-
 fn describe(found: &Changes<'_>, of: &ElementChange) -> String {
     match of.change {
         Change::Added => "added".to_owned(),
@@ -194,7 +183,7 @@ fn element_json(found: &Changes<'_>, of: &ElementChange) -> Value {
     let mut object = json!({
         "element": of.element.name(),
         "id": found.id(of),
-        "change": kind_name(of.change),
+        "change": of.change.name(),
     });
     match of.change {
         Change::Added | Change::Removed => {}

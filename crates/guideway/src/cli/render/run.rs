@@ -143,6 +143,6 @@ fn print_report(
     out: &Output,
 ) -> Result<(), UserError> {
     let body = report::json(args, output, shown, times);
-    let out = out.beside(output);
+    let out = out.beside(Some(output));
     out.report("render", &body, || report::text(output, shown, times))
 }

@@ -42,7 +42,8 @@ impl RouteEnds {
     /// # Errors
     /// When a name is unknown, or there is no way.
     pub(crate) fn find(&self, layout: &Layout) -> Result<FoundRoute, UserError> {
-        let vehicle_type = self.vehicle_type.as_deref().or_else(|| only_type(layout));
+        let vehicle_type = self.vehicle_type.as_deref();
+        let vehicle_type = vehicle_type.or_else(|| layout.paths.vehicle_types().only_name());
         let router = Router::new(layout, vehicle_type, &RouteOptions::default());
         let router = router.map_err(|error| {
             let is_of_type = matches!(error, RouteError::VehicleType { .. });
@@ -87,14 +88,6 @@ impl FoundRoute {
             "length_m": self.length_m,
             "time_s": self.time_s,
         })
-    }
-}
-
-/// The vehicle type of a layout that has one only.
-pub(super) fn only_type(layout: &Layout) -> Option<&str> {
-    match layout.paths.vehicle_types().names() {
-        [one] => Some(one),
-        _ => None,
     }
 }
 

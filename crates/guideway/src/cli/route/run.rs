@@ -8,7 +8,6 @@ use guideway::layout::{Layout, UserError};
 use guideway::network::{Route, RouteOptions, Router};
 use serde_json::{Value, json};
 
-use super::ends::only_type;
 use super::geojson;
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::{self, Input};
@@ -84,7 +83,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let output = output.transpose()?;
     let (layout, read_ms) = input::read_all(std::slice::from_ref(&args.input), out)?;
     let progress = out.progress("searching");
-    let vehicle_type = args.vehicle_type.as_deref().or_else(|| only_type(&layout));
+    let vehicle_type = args.vehicle_type.as_deref();
+    let vehicle_type = vehicle_type.or_else(|| layout.paths.vehicle_types().only_name());
     let router = Router::new(&layout, vehicle_type, &args.options())?;
     let graph_ms = progress.finish();
     let progress = out.progress("searching");
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let list = || table(args, &layout, &route);
     match args.format {
         Format::List => {
-            let out = args.output.as_deref().map_or(*out, |file| out.beside(file));
+            let out = out.beside(args.output.as_deref());
             out.report("route", &body, list)?;
         }
         Format::Json => Output::new(true, false).report("route", &body, list)?,
