@@ -53,42 +53,44 @@ fn theme(ui: &mut Ui, settings: &mut DisplaySettings) {
 }
 
 fn language(ui: &mut Ui, settings: &mut DisplaySettings) {
-    let label = ui.label(t("Language"));
     let name = |language: Option<Language>| language.map_or(t("as the desktop"), Language::name);
-    ComboBox::from_id_salt("language")
-        .selected_text(name(settings.language))
-        .show_ui(ui, |ui| {
-            let each = Language::ALL.map(Some).into_iter();
-            for choice in std::iter::once(None).chain(each) {
-                ui.selectable_value(&mut settings.language, choice, name(choice));
-            }
-        })
-        .response
-        .labelled_by(label.id);
-    ui.end_row();
+    let all = std::iter::once(None).chain(Language::ALL.map(Some));
+    choice(
+        ui,
+        "language",
+        "Language",
+        &mut settings.language,
+        all,
+        name,
+    );
 }
 
 fn speeds(ui: &mut Ui, settings: &mut DisplaySettings) {
-    let label = ui.label(t("Speeds in"));
-    ComboBox::from_id_salt("speeds")
-        .selected_text(settings.speed_unit.name())
-        .show_ui(ui, |ui| {
-            for unit in SpeedUnit::ALL {
-                ui.selectable_value(&mut settings.speed_unit, unit, unit.name());
-            }
-        })
-        .response
-        .labelled_by(label.id);
-    ui.end_row();
+    let (unit, all) = (&mut settings.speed_unit, SpeedUnit::ALL);
+    choice(ui, "speeds", t("Speeds in"), unit, all, SpeedUnit::name);
 }
 
 fn lengths(ui: &mut Ui, settings: &mut DisplaySettings) {
-    let label = ui.label(t("Lengths of properties in"));
-    ComboBox::from_id_salt("lengths")
-        .selected_text(settings.length_unit.name())
+    let (unit, all) = (&mut settings.length_unit, LengthUnit::ALL);
+    let label = t("Lengths of properties in");
+    choice(ui, "lengths", label, unit, all, LengthUnit::name);
+}
+
+/// A row with a list of names, one per value. `id` is that of the list.
+fn choice<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    id: &str,
+    label: &str,
+    value: &mut T,
+    all: impl IntoIterator<Item = T>,
+    name: impl Fn(T) -> &'static str,
+) {
+    let label = ui.label(label);
+    ComboBox::from_id_salt(id)
+        .selected_text(name(*value))
         .show_ui(ui, |ui| {
-            for unit in LengthUnit::ALL {
-                ui.selectable_value(&mut settings.length_unit, unit, unit.name());
+            for known in all {
+                ui.selectable_value(value, known, name(known));
             }
         })
         .response
