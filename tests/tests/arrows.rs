@@ -93,6 +93,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("guideway-python", &["guideway"]),
+    (
+        "guideway-window",
+        &["guideway", "guideway-bench", "guideway-viewer"],
+    ),
 ];
 
 const SPLINE: &[&str] = &["guideway-spline"];
@@ -110,7 +114,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("svgtypes", "guideway-formats"),
     (
         "serde_json",
-        "guideway-formats guideway-envelope guideway guideway-tests",
+        "guideway-formats guideway-envelope guideway guideway-tests guideway-window",
     ),
     ("anstream", "guideway"),
     ("clap", "guideway"),
@@ -124,8 +128,8 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("khronos-egl", "guideway-tessellation"),
     ("winit", "guideway-viewer"),
     ("eframe", "guideway-viewer"),
-    ("etcetera", "guideway"),
-    ("rfd", "guideway"),
+    ("etcetera", "guideway-window"),
+    ("rfd", "guideway-window"),
     ("zune-jpeg", "guideway-formats"),
     ("fontdb", "guideway-compose"),
     ("harfrust", "guideway-compose"),

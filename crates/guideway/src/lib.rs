@@ -18,7 +18,7 @@
 //! | [`compose`] | the finished picture as PNG or SVG, with backdrop, labels, legend and title |
 //! | [`methods`], [`method`] | the render methods of this build |
 //!
-//! The command `guideway` calls the same functions.
+//! The command `guideway` calls the same functions; it is the module `cli`, with the feature `cli`.
 //!
 //! # Open
 //!
@@ -171,8 +171,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// The command names the library as other programs do.
+#[cfg(feature = "cli")]
+extern crate self as guideway;
+
+#[cfg(feature = "cli")]
+pub mod cli;
 mod files;
 mod methods;
+#[cfg(feature = "cli")]
+mod out_of_memory;
 #[cfg(feature = "script")]
 pub mod script;
 
@@ -194,5 +202,6 @@ pub use guideway_formats::{
     NewFile, SaveError, remove_unfinished, replace_file, try_remove_unfinished,
 };
 pub use methods::{
-    AUTO, Available, MethodError, MethodOption, live_method, method, method_names, methods,
+    AUTO, Available, MethodError, MethodOption, live_method, method,
+    method_names, methods,
 };

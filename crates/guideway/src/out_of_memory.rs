@@ -1,5 +1,5 @@
-//! The allocator of the command: without memory it ends with an error and its exit code, and leaves
-//! no unfinished file, where Rust would abort.
+//! The allocator of the command and of the window: without memory the program ends with an error and
+//! its exit code, and leaves no unfinished file, where Rust would abort.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::io::Write;
@@ -20,11 +20,9 @@ pub(crate) fn report_as_json() {
     IS_JSON.store(true, Ordering::SeqCst);
 }
 
-#[global_allocator]
-static ALLOCATOR: Allocator = Allocator;
-
 /// The system's allocator, which ends the process when it has no memory.
-struct Allocator;
+#[derive(Clone, Copy, Debug)]
+pub struct Allocator;
 
 #[expect(unsafe_code, reason = "an allocator is unsafe to implement")]
 // SAFETY: every call is passed on to the system's allocator; a failed one does not return, unless

@@ -1,23 +1,18 @@
 //! Parses the arguments, runs the subcommand and converts its outcome to an exit code.
 
-use std::borrow::Cow;
-use std::ffi::OsStr;
-use std::io::{self, Write};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use guideway::formats::Format;
-use guideway::layout::{UserError, shown_lines};
+use guideway::layout::UserError;
 
-use super::error::{ERROR, Exit, parser_error};
+use super::error::Exit;
 use super::output::Output;
-#[cfg(feature = "viewer")]
-use super::view;
+use super::start::{self, GlobalOptions};
 use super::{
-    bench, check, convert, default_command, demo, diff, edit, generate, info, limits, methods,
-    network, process, render, reproduce, route, shell,
+    bench, check, convert, default_command, demo, diff, edit, generate, info, methods,
+    network, process, render, reproduce, route, shell, view,
 };
-use crate::out_of_memory;
 
 /// Draws and checks the path layouts of automated guided vehicles.
 #[derive(Debug, Parser)]
@@ -34,32 +29,13 @@ use crate::out_of_memory;
 struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// Print one JSON object instead of text, also for errors
-    #[arg(long, global = true)]
-    json: bool,
-    /// Print only errors
-    #[arg(long, short, global = true)]
-    quiet: bool,
-    /// Set a limit on what is read or written; can be repeated. Names: file-bytes, output-bytes,
-    /// paths, control-points, curve-points, elements, text-bytes, depth, coordinate (in meters)
-    #[arg(long, global = true, value_name = "NAME=VALUE", value_parser = limits::setting)]
-    limit: Vec<limits::Setting>,
-    /// Formats that are read, such as `lif,dxf`; a file of another format is an error [default:
-    /// all]
-    #[arg(
-        long,
-        global = true,
-        value_name = "A,B",
-        value_delimiter = ',',
-        value_parser = limits::format
-    )]
-    formats: Vec<Format>,
+    #[command(flatten)]
+    options: GlobalOptions,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Show layout files in a window and edit them
-    #[cfg(feature = "viewer")]
     View(view::Args),
     /// Draw layout files as a PNG, SVG or PDF picture
     Render(Box<render::Args>),
@@ -96,36 +72,23 @@ enum Command {
 }
 
 /// Runs the command and returns its exit code.
-pub(crate) fn main() -> ExitCode {
+pub fn main() -> ExitCode {
+    process::prepare();
     let grammar = Cli::command();
     let commands: Vec<&str> = grammar
         .get_subcommands()
         .map(clap::Command::get_name)
         .collect();
     let args = default_command::insert(std::env::args_os().collect(), &commands);
-    let cli = match Cli::try_parse_from(args) {
-        Ok(cli) => cli,
-        Err(error) => return exit_from_parser(&error),
-    };
-    let out = Output::new(cli.json, cli.quiet);
-    if cli.json {
-        out_of_memory::report_as_json();
-    }
-    limits::set(&cli.limit, &cli.formats);
-    let ready = process::watch().and_then(|()| process::start_threads());
-    match ready.and_then(|()| run(&cli.command, &out)) {
-        Ok(exit) => ExitCode::from(exit.code()),
-        Err(error) => {
-            out.error(&error);
-            ExitCode::from(ERROR)
-        }
+    match start::parse::<Cli>(args.clone()) {
+        Ok(cli) => start::run(&cli.options, |out| run(&cli.command, &args, out)),
+        Err(exit) => exit,
     }
 }
 
-fn run(command: &Command, out: &Output) -> Result<Exit, UserError> {
+fn run(command: &Command, args: &[OsString], out: &Output) -> Result<Exit, UserError> {
     match command {
-        #[cfg(feature = "viewer")]
-        Command::View(args) => view::run(args, out),
+        Command::View(view) => view::run(view, args, out),
         Command::Render(args) => render::run(args, out),
         Command::Info(args) => info::run(args, out),
         Command::Check(args) => check::run(args, out),
@@ -143,20 +106,4 @@ fn run(command: &Command, out: &Output) -> Result<Exit, UserError> {
         Command::Man(args) => shell::man(args, Cli::command(), out),
         Command::Schema(args) => shell::schema(args, out),
     }
-}
-
-/// Prints help, version or the error of the parser.
-fn exit_from_parser(error: &clap::Error) -> ExitCode {
-    let wants_json = std::env::args_os().any(|arg| arg == OsStr::new("--json"));
-    if error.use_stderr() && wants_json {
-        Output::new(true, false).error(&parser_error(error));
-    } else {
-        let text = error.render().to_string();
-        // Only a closed pipe can fail here, and its reader wants no more.
-        let _ = match shown_lines(&text) {
-            Cow::Borrowed(_) => error.print(),
-            Cow::Owned(shown) => io::stderr().write_all(shown.as_bytes()),
-        };
-    }
-    ExitCode::from(error.exit_code() as u8)
 }

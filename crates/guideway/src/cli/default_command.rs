@@ -3,6 +3,8 @@
 use std::ffi::OsString;
 use std::path::Path;
 
+use super::view;
+
 /// Inserts the name of the command before a first argument that is a file and no command.
 pub(crate) fn insert(mut args: Vec<OsString>, commands: &[&str]) -> Vec<OsString> {
     let is_file = args.get(1).is_some_and(|first| {
@@ -10,13 +12,14 @@ pub(crate) fn insert(mut args: Vec<OsString>, commands: &[&str]) -> Vec<OsString
         !is_command && Path::new(first).is_file()
     });
     if is_file {
-        args.insert(1, command(has_display()).into());
+        let opens = has_display() && view::find().is_some();
+        args.insert(1, command(opens).into());
     }
     args
 }
 
-fn command(has_display: bool) -> &'static str {
-    match cfg!(feature = "viewer") && has_display {
+fn command(opens_window: bool) -> &'static str {
+    match opens_window {
         true => "view",
         false => "info",
     }

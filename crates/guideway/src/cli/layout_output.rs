@@ -165,7 +165,10 @@ fn contradiction(target: Target, output: &Path) -> Option<String> {
 }
 
 /// The format to save a layout in: see [`Target::for_file`].
-pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, UserError> {
+///
+/// # Errors
+/// When nothing tells the format of `output`.
+pub fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, UserError> {
     Target::for_file(layout, output).ok_or_else(|| no_target(output))
 }
 
@@ -223,9 +226,12 @@ fn write_error(output: &Path, problem: WriteProblem) -> WriteError {
     }
 }
 
-/// Writes the layout into a new file for `output`. Returns the losses of the format.
-#[cfg(feature = "viewer")]
-pub(super) fn write_into(
+/// Writes the layout into a new file for `output`, within the limits of this run. Returns the losses
+/// of the format.
+///
+/// # Errors
+/// When the format cannot hold the layout, or the file cannot be written.
+pub fn write_into(
     file: &mut guideway::NewFile,
     target: Target,
     layout: &Layout,

@@ -140,7 +140,7 @@ pub(crate) fn limits_over(settings: &[Setting]) -> Limits {
 }
 
 /// The options of every read of this run.
-pub(crate) fn read_options(progress: Option<&dyn Progress>) -> ReadOptions<'_> {
+pub fn read_options(progress: Option<&dyn Progress>) -> ReadOptions<'_> {
     read_options_within(limits().clone(), progress)
 }
 

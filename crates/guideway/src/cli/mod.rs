@@ -1,9 +1,10 @@
-//! The command line: one module per subcommand, and the modules that they share.
+//! The command line, with the feature `cli`: [`main`] is the command, [`window`] its part in the
+//! program of the window. One module per subcommand, and the modules that they share.
 //!
 //! | module | purpose |
 //! |---|---|
 //! | `default_command` | the command that `guideway FILE` means |
-//! | `app` | parses arguments, dispatches to a subcommand, exits |
+//! | `app`, `start` | parse arguments, dispatch to a subcommand, exit |
 //! | `input`, `floor_plan`, `envelope`, `values`, `limits` | read arguments and files |
 //! | `layout_output`, `picture_file`, `picture_output` | outputs: layouts, names of pictures, pictures |
 //! | `output`, `stdout`, `text`, `colors`, `progress_bar`, `error`, `process` | reports, errors, exit codes, threads and signals |
@@ -37,10 +38,13 @@ mod render;
 mod reproduce;
 mod route;
 mod shell;
+mod start;
 mod stdout;
 mod text;
 mod values;
-#[cfg(feature = "viewer")]
 mod view;
 
-pub(crate) use app::main;
+pub use app::main;
+pub use view::window;
+
+pub use crate::out_of_memory::Allocator;

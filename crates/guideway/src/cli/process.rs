@@ -1,9 +1,9 @@
 //! The process: the threads that all stages share, and Ctrl-C, which ends it at once or cancels an
 //! operation that saves its results.
 
-use std::process;
 use std::sync::{OnceLock, mpsc};
 use std::thread;
+use std::{env, process};
 
 use guideway::layout::UserError;
 use guideway::scene::Cancel;
@@ -13,6 +13,24 @@ use super::error::{INTERRUPTED, usage_error};
 
 /// Cancels the operation that saves its results when it is stopped.
 static CANCEL_ON_INTERRUPT: OnceLock<Cancel> = OnceLock::new();
+
+/// Prepares the process, before it starts its first thread. Disables a layer of Mesa that selects a
+/// graphics card: without a desktop it prints an error that concerns nobody.
+pub(super) fn prepare() {
+    let has_desktop = ["DISPLAY", "WAYLAND_DISPLAY", "XDG_RUNTIME_DIR"]
+        .iter()
+        .any(|name| env::var_os(name).is_some());
+    if !has_desktop {
+        #[expect(
+            unsafe_code,
+            reason = "no other thread runs yet that could read the variables"
+        )]
+        // SAFETY: `main` calls this first, and the program has started no other thread.
+        unsafe {
+            env::set_var("NODEVICE_SELECT", "1");
+        }
+    }
+}
 
 /// Installs the handler: Ctrl-C removes unfinished files and ends the process.
 pub(super) fn watch() -> Result<(), UserError> {
@@ -72,7 +90,7 @@ pub(super) fn start_threads() -> Result<(), UserError> {
 
 /// Rejects a number of threads that a system would choke on.
 fn check_environment() -> Result<(), UserError> {
-    let set = std::env::var(VARIABLE).ok();
+    let set = env::var(VARIABLE).ok();
     match set.and_then(|text| text.trim().parse::<u64>().ok()) {
         Some(threads) if threads > MAX_THREADS as u64 => Err(usage_error(
             format!("{VARIABLE}={threads}: above the limit of {MAX_THREADS} threads"),

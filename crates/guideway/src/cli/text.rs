@@ -5,7 +5,7 @@ use guideway::layout::Value;
 pub(crate) use guideway::compose::text_format::{count, counted, single_line};
 
 /// A duration to three digits.
-pub(crate) fn time(ms: f64) -> String {
+pub fn time(ms: f64) -> String {
     if ms < 9.995 {
         format!("{ms:.2} ms")
     } else if ms < 999.5 {

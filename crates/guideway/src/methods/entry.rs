@@ -15,11 +15,7 @@ pub struct MethodOption {
 pub(super) enum StartError {
     /// Its options are invalid.
     Options(String),
-    /// The computer lacks a device or a driver.
-    #[cfg_attr(
-        not(any(feature = "gl", feature = "gpu")),
-        expect(dead_code, reason = "methods on the processor always start")
-    )]
+    /// The computer lacks a device or a driver, or this build lacks the method.
     Unavailable(String),
 }
 
@@ -27,9 +23,14 @@ pub(super) enum StartError {
 pub(super) struct Entry {
     pub(super) name: &'static str,
     pub(super) summary: &'static str,
-    pub(super) options: &'static [MethodOption],
     /// True if it draws every scene completely, so that `auto` may select it.
     pub(super) is_general: bool,
+    pub(super) implementation: Implementation,
+}
+
+/// The code of a method.
+pub(super) struct Implementation {
+    pub(super) options: &'static [MethodOption],
     /// Starts the method with the options after its name.
     pub(super) start: fn(&str) -> Result<Box<dyn Method>, StartError>,
 }

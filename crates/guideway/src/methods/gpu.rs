@@ -7,11 +7,9 @@ use guideway_grid::{Grid, GridOptions};
 use guideway_scene::Method;
 use guideway_tree::{Structure, TreeOptions, Trees};
 
-use super::entry::{Entry, MethodOption, StartError};
+use super::entry::{Implementation, MethodOption, StartError};
 
-pub(super) const TILES: Entry = Entry {
-    name: "gpu",
-    summary: "Compute shaders, each frame from the control points; a color and a width per path",
+pub(super) const TILES: Implementation = Implementation {
     options: &[
         MethodOption {
             name: "rebuild",
@@ -22,7 +20,6 @@ pub(super) const TILES: Entry = Entry {
             summary: "measures each stage of a frame; the device waits between stages",
         },
     ],
-    is_general: true,
     start: |options| {
         let mut selected = TilesOptions::default();
         for option in options.split('+').filter(|option| !option.is_empty()) {
@@ -40,9 +37,7 @@ pub(super) const TILES: Entry = Entry {
     },
 };
 
-pub(super) const GRID: Entry = Entry {
-    name: "grid",
-    summary: "Thesis 4.3: tests each pixel against the lines of its grid cell; one color",
+pub(super) const GRID: Implementation = Implementation {
     options: &[
         MethodOption {
             name: "scan",
@@ -73,23 +68,16 @@ pub(super) const GRID: Entry = Entry {
             summary: "cells per side of the grid, 128 in the thesis",
         },
     ],
-    is_general: false,
     start,
 };
 
-pub(super) const TREE: Entry = Entry {
-    name: "tree",
-    summary: "Thesis 6.1.1: tests each pixel against the lines of an AABB tree",
+pub(super) const TREE: Implementation = Implementation {
     options: TREE_OPTIONS,
-    is_general: false,
     start: |options| start_tree(Structure::Tree, options),
 };
 
-pub(super) const QUADTREE: Entry = Entry {
-    name: "quadtree",
-    summary: "Thesis 6.3: as `tree`, by a linear quadtree that each frame builds",
+pub(super) const QUADTREE: Implementation = Implementation {
     options: TREE_OPTIONS,
-    is_general: false,
     start: |options| start_tree(Structure::Quadtree, options),
 };
 

@@ -4,8 +4,11 @@
 //! |---|---|
 //! | `entry` | the description of one method |
 //! | `gpu`, `tessellation` | the methods on graphics devices |
+//! | `absent` | what stands in for them in builds without |
 //! | `registry` | the list of all methods; starts one by its name and options |
 
+#[cfg(not(all(feature = "gl", feature = "gpu")))]
+mod absent;
 mod entry;
 #[cfg(feature = "gpu")]
 mod gpu;
@@ -14,4 +17,6 @@ mod registry;
 mod tessellation;
 
 pub use entry::MethodOption;
-pub use registry::{AUTO, Available, MethodError, live_method, method, method_names, methods};
+pub use registry::{
+    AUTO, Available, MethodError, live_method, method, method_names, methods,
+};

@@ -1,10 +1,14 @@
-//! The list of all methods of this build; starts one by its name and options.
+//! The list of all methods; starts one by its name and options.
 
 use guideway_cpu::{Cpu, Oracle};
 use guideway_layout::UserError;
 use guideway_scene::{Method, MethodInfo};
 
-use super::entry::{Entry, MethodOption, StartError};
+#[cfg(not(feature = "gpu"))]
+use super::absent::gpu;
+#[cfg(not(feature = "gl"))]
+use super::absent::tessellation;
+use super::entry::{Entry, Implementation, MethodOption, StartError};
 #[cfg(feature = "gpu")]
 use super::gpu;
 #[cfg(feature = "gl")]
@@ -13,7 +17,7 @@ use super::tessellation;
 /// The name that selects the best method for a single picture.
 pub const AUTO: &str = "auto";
 
-/// A method of this build, and whether it runs on this computer.
+/// A method, and whether it runs on this computer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Available {
     /// Its name and device; the device is empty if the method does not run.
@@ -43,12 +47,12 @@ pub enum MethodError {
         /// The invalid option, and the valid ones.
         problem: String,
     },
-    /// The method does not run on this computer.
-    #[error("method `{name}` does not run on this computer: {reason}")]
+    /// The method does not run on this computer, or in this build.
+    #[error("method `{name}` does not run here: {reason}")]
     Unavailable {
         /// The requested method.
         name: &'static str,
-        /// The missing device or driver.
+        /// The missing device, driver or feature.
         reason: String,
     },
 }
@@ -56,41 +60,71 @@ pub enum MethodError {
 const CPU: Entry = Entry {
     name: "cpu",
     summary: "Fast and exact on any processor; needs no graphics hardware",
-    options: &[],
     is_general: true,
-    start: |options| without_options(options, Cpu),
+    implementation: Implementation {
+        options: &[],
+        start: |options| without_options(options, Cpu),
+    },
 };
 
-/// Every method of this build. [`AUTO`] selects the first general one that starts.
+const GPU: Entry = Entry {
+    name: "gpu",
+    summary: "Compute shaders, each frame from the control points; a color and a width per path",
+    is_general: true,
+    implementation: gpu::TILES,
+};
+
+/// Every method. [`AUTO`] selects the first general one that starts.
 const ENTRIES: &[Entry] = &[
     CPU,
     Entry {
         name: "oracle",
         summary: "The slow reference for all other methods, in double precision",
-        options: &[],
         is_general: true,
-        start: |options| without_options(options, Oracle),
+        implementation: Implementation {
+            options: &[],
+            start: |options| without_options(options, Oracle),
+        },
     },
-    #[cfg(feature = "gpu")]
-    gpu::TILES,
-    #[cfg(feature = "gpu")]
-    gpu::GRID,
-    #[cfg(feature = "gpu")]
-    gpu::TREE,
-    #[cfg(feature = "gpu")]
-    gpu::QUADTREE,
-    #[cfg(feature = "gl")]
-    tessellation::PER_PATH,
-    #[cfg(feature = "gl")]
-    tessellation::COMPACT,
+    GPU,
+    Entry {
+        name: "grid",
+        summary: "Thesis 4.3: tests each pixel against the lines of its grid cell; one color",
+        is_general: false,
+        implementation: gpu::GRID,
+    },
+    Entry {
+        name: "tree",
+        summary: "Thesis 6.1.1: tests each pixel against the lines of an AABB tree",
+        is_general: false,
+        implementation: gpu::TREE,
+    },
+    Entry {
+        name: "quadtree",
+        summary: "Thesis 6.3: as `tree`, by a linear quadtree that each frame builds",
+        is_general: false,
+        implementation: gpu::QUADTREE,
+    },
+    Entry {
+        name: "tessellation",
+        summary: "Thesis 4.2: hardware tessellation, one draw call per path; one color, 1 pixel wide",
+        is_general: false,
+        implementation: tessellation::PER_PATH,
+    },
+    Entry {
+        name: "tessellation-compact",
+        summary: "The same with a single draw call for all visible segments",
+        is_general: false,
+        implementation: tessellation::COMPACT,
+    },
 ];
 
-/// Every method of this build, the preferred ones first. Starts each to find out whether it runs.
+/// Every method, the preferred ones first. Starts each to find out whether it runs.
 pub fn methods() -> Vec<Available> {
-    let listed = |entry: &Entry| match (entry.start)("") {
+    let listed = |entry: &Entry| match (entry.implementation.start)("") {
         Ok(method) => Available {
             info: method.info(),
-            options: entry.options,
+            options: entry.implementation.options,
             unavailable: None,
         },
         Err(StartError::Options(reason) | StartError::Unavailable(reason)) => Available {
@@ -99,14 +133,14 @@ pub fn methods() -> Vec<Available> {
                 summary: entry.summary,
                 device: String::new(),
             },
-            options: entry.options,
+            options: entry.implementation.options,
             unavailable: Some(reason),
         },
     };
     ENTRIES.iter().map(listed).collect()
 }
 
-/// Names of all methods of this build, available or not.
+/// Names of all methods, available or not.
 pub fn method_names() -> impl Iterator<Item = &'static str> {
     ENTRIES.iter().map(|entry| entry.name)
 }
@@ -115,11 +149,10 @@ pub fn method_names() -> impl Iterator<Item = &'static str> {
 /// graphics hardware, `cpu` without. For a single picture `cpu` is done before a device has
 /// started, and gives the same pixels on every computer.
 pub fn live_method() -> &'static str {
-    #[cfg(feature = "gpu")]
-    if gpu::is_in_hardware() {
-        return gpu::TILES.name;
+    match gpu::is_in_hardware() {
+        true => GPU.name,
+        false => CPU.name,
     }
-    CPU.name
 }
 
 /// Starts a method by its name and options, such as `grid+scan+aa=subpixel`. [`AUTO`] starts the
@@ -157,7 +190,7 @@ fn automatic(options: &str) -> Result<Box<dyn Method>, MethodError> {
 
 fn start(entry: &Entry, options: &str) -> Result<Box<dyn Method>, MethodError> {
     let name = entry.name;
-    (entry.start)(options).map_err(|error| match error {
+    (entry.implementation.start)(options).map_err(|error| match error {
         StartError::Options(problem) => MethodError::Option { name, problem },
         StartError::Unavailable(reason) => MethodError::Unavailable { name, reason },
     })

@@ -5,21 +5,15 @@ use std::sync::{Arc, LazyLock};
 use guideway_scene::Method;
 use guideway_tessellation::{Commands, GlDevice, GlError, Tessellation, TessellationOptions};
 
-use super::entry::{Entry, MethodOption, StartError};
+use super::entry::{Implementation, MethodOption, StartError};
 
-pub(super) const PER_PATH: Entry = Entry {
-    name: "tessellation",
-    summary: "Thesis 4.2: hardware tessellation, one draw call per path; one color, 1 pixel wide",
+pub(super) const PER_PATH: Implementation = Implementation {
     options: OPTIONS,
-    is_general: false,
     start: |options| start(options, Commands::PerPath),
 };
 
-pub(super) const COMPACT: Entry = Entry {
-    name: "tessellation-compact",
-    summary: "The same with a single draw call for all visible segments",
+pub(super) const COMPACT: Implementation = Implementation {
     options: OPTIONS,
-    is_general: false,
     start: |options| start(options, Commands::Compact),
 };
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{command, json, names_in, run, site, stderr, stdout};
+use crate::support::{command, json, names_in, site, stderr, stdout};
 
 /// The output of the command in a folder.
 fn run_in(folder: &Path, args: &[&str]) -> std::process::Output {
@@ -262,13 +262,4 @@ fn threads_that_cannot_start_are_an_error() {
         assert_usage(&shell.output().unwrap(), "cannot start the threads");
         assert_eq!(names_in(folder.path()), ["site.lif.json"], "{args}");
     }
-}
-
-#[test]
-fn measuring_the_window_leaves_nothing() {
-    let folder = folder_with_site();
-    let output = run_in(folder.path(), &["view", "site.lif.json", "--measure"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(names_in(folder.path()), ["site.lif.json"]);
-    assert!(run(["info"]).status.code() == Some(2));
 }

@@ -26,3 +26,5 @@ mod schema;
 mod several;
 mod site_repository;
 mod support;
+#[cfg(unix)]
+mod view;

@@ -1,19 +1,14 @@
-//! `guideway view`: the window.
+//! `guideway view`: the window, a program of its own.
 //!
 //! | module | purpose |
 //! |---|---|
-//! | `run` | arguments, opens the window |
-//! | `file_dialog` | the file dialogs of the desktop |
-//! | `project_file` | reads the text of a project |
-//! | `save` | saves a layout, unless that loses too much |
-//! | `services` | files, pictures and methods for the window |
-//! | `measure` | `--measure`: frame times without a window |
+//! | `args` | the arguments |
+//! | `program` | finds the program of the window and starts it |
+//! | `window` | the part of the command that this program shares |
 
-mod file_dialog;
-mod measure;
-mod project_file;
-mod run;
-mod save;
-mod services;
+mod args;
+mod program;
+pub mod window;
 
-pub(crate) use run::{Args, run};
+pub(crate) use args::Args;
+pub(crate) use program::{find, run};

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
+use guideway::cli::window::{target_to_save, write_into};
 use guideway::formats::{Loss, Target, WriteError};
 use guideway::layout::{Layout, UserError, shown_path};
 use guideway::{SaveError, replace_file};
 use guideway_viewer::{LostPart, Saved};
-
-use crate::cli::layout_output::{target_to_save, write_into};
 
 /// Why no file replaced the old one.
 enum Unsaved {
@@ -28,7 +27,7 @@ impl From<WriteError> for Unsaved {
 }
 
 /// Writes the file beside its place; it takes the place if `accepts` holds for its losses.
-pub(super) fn save(
+pub(crate) fn save(
     layout: &Layout,
     path: &Path,
     accepts: &dyn Fn(&[LostPart]) -> bool,
@@ -58,7 +57,7 @@ fn lost_part(loss: &Loss) -> LostPart {
 }
 
 /// Rejects saving a layout over its source if the source may hold more than the layout.
-pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserError> {
+pub(crate) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserError> {
     let refused = layout.refused.len();
     let target = target_to_save(layout, file)?;
     let would_lose = match target {
@@ -99,7 +98,7 @@ mod tests {
         let path = folder.path().join("site.geojson");
         let site = folder.path().join("site.svg");
         fs::write(&site, "old").unwrap();
-        let site_bytes = include_bytes!("../../../examples/site.lif.json");
+        let site_bytes = include_bytes!("../../guideway/examples/site.lif.json");
         let options = guideway::formats::ReadOptions::default();
         let layout = guideway::formats::read_bytes("site", site_bytes, &options).unwrap();
         let asked = std::cell::RefCell::new(Vec::new());

@@ -1,14 +1,14 @@
 //! Tests of the window with real key and mouse events on a virtual screen.
 //!
-//! They need `Xvfb`, `xdotool` and a Vulkan driver, which `cargo xtask test` installs.
-#![cfg(all(feature = "viewer", target_os = "linux"))]
+//! They need `Xvfb`, `xdotool` and a Vulkan driver, which `cargo xtask test` installs, and the
+//! command, which the workspace builds beside the window.
+#![cfg(target_os = "linux")]
 
 mod session;
 
 use std::fs;
 use std::io::BufReader;
 use std::path::Path;
-use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
@@ -20,7 +20,10 @@ use session::{MAX_TRIES, WindowSession, is_installed, polls};
 const CANVAS_PX: f64 = 960.0;
 /// Scale of the window when it fits the site.
 const PX_PER_M: f64 = 6.8;
-const SITE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/site.lif.json");
+const SITE: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../guideway/examples/site.lif.json"
+);
 
 /// Size and pixels of a PNG file.
 fn read_png(path: &Path) -> (u32, u32, Vec<u8>) {
@@ -38,7 +41,7 @@ fn assert_equals_render(picture: &Path, file: &Path, rendered: &Path) {
     const BAR_PX: (usize, usize) = (700, 240);
     let (width, height, of_window) = read_png(picture);
     let factor = f64::from(width) / CANVAS_PX;
-    let status = Command::new(env!("CARGO_BIN_EXE_guideway"))
+    let status = session::command()
         .args(["render", "--quiet", "--size", &format!("{width}x{height}")])
         // The color of paths in the window.
         .args(["--color", "5a6b7f"])
@@ -65,6 +68,23 @@ fn assert_equals_render(picture: &Path, file: &Path, rendered: &Path) {
     assert_eq!(other, None, "the first row that differs");
     let is_blank = |row: &Vec<u8>| row.iter().all(|&value| value == 255);
     assert!(!of_command.iter().all(is_blank));
+}
+
+#[test]
+fn measuring_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = folder.path().join("site.lif.json");
+    fs::copy(SITE, &site).unwrap();
+    let measured = session::command()
+        .args(["view", "--measure", "--json"])
+        .arg(&site)
+        .output();
+    let measured = measured.expect("the command starts");
+    assert_eq!(measured.status.code(), Some(0), "{measured:?}");
+    let report: serde_json::Value = serde_json::from_slice(&measured.stdout).unwrap();
+    assert_eq!(report["guideway"]["report"], "view");
+    assert!(!report["movements"].as_array().unwrap().is_empty());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]

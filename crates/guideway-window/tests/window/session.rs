@@ -177,6 +177,16 @@ impl WindowSession {
     }
 }
 
+/// The command beside the program of the window, which it starts.
+pub(super) fn command() -> Command {
+    let command = Path::new(env!("CARGO_BIN_EXE_guideway-window")).with_file_name("guideway");
+    assert!(
+        command.exists(),
+        "build the command too: cargo build --workspace"
+    );
+    Command::new(command)
+}
+
 /// Starts a window with files on a screen.
 fn start(display: &str, files: &[&Path]) -> Child {
     let state = files[0].with_file_name("state");
@@ -185,7 +195,7 @@ fn start(display: &str, files: &[&Path]) -> Child {
     fs::create_dir_all(&settings).expect("the folder is new");
     let text = "[look]\nuses-desktop-dialogs = false\n";
     fs::write(settings.join("window.toml"), text).expect("the folder is there");
-    Command::new(env!("CARGO_BIN_EXE_guideway"))
+    command()
         .args(["view", "--method", "cpu"])
         .args(files)
         .env("DISPLAY", display)

@@ -1,40 +1,27 @@
 //! `guideway view --measure`: frame times of the window under scripted movements.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
+use guideway::cli::window::{Measured, Request, shown_time};
 use guideway::layout::UserError;
 use guideway_bench::{Machine, Summary};
 use guideway_viewer::Movement;
 use serde_json::{Value, json};
 
-use super::services::CliServices;
-use crate::cli::error::{Exit, usage_error};
-use crate::cli::output::Output;
-use crate::cli::text;
+use crate::services::FileServices;
 
-pub(super) fn measure(
-    files: &[PathBuf],
-    method: Option<String>,
-    out: &Output,
-) -> Result<Exit, UserError> {
-    let [file] = files else {
-        return Err(usage_error(
-            "--measure takes exactly one file",
-            "Name one, such as `guideway view site.arrow --measure`",
-        ));
-    };
-    let services = Arc::new(CliServices::for_measurement());
-    let progress = out.progress("measuring frame times");
-    let movements = guideway_viewer::measure(services, file.clone(), method)?;
-    drop(progress);
-    let body = json!({
-        "file": file.to_string_lossy(),
-        "machine": Machine::here(),
-        "movements": movements.iter().map(movement_json).collect::<Vec<Value>>(),
-    });
-    out.report("view", &body, || table(&movements))?;
-    Ok(Exit::Clean)
+pub(crate) fn measure(request: Request) -> Result<Measured, UserError> {
+    let services = Arc::new(FileServices::for_measurement());
+    let file = request.files.into_iter().next().unwrap_or_default();
+    let movements = guideway_viewer::measure(services, file.clone(), request.method)?;
+    Ok(Measured {
+        json: json!({
+            "file": file.to_string_lossy(),
+            "machine": Machine::here(),
+            "movements": movements.iter().map(movement_json).collect::<Vec<Value>>(),
+        }),
+        table: table(&movements),
+    })
 }
 
 fn movement_json(movement: &Movement) -> Value {
@@ -63,12 +50,12 @@ fn table(movements: &[Movement]) -> String {
         let pictures = Summary::of(&movement.pictures_ms).unwrap_or_default();
         let frame = format!(
             "{}, {}, {}",
-            text::time(frames.median),
-            text::time(frames.p95),
-            text::time(frames.max)
+            shown_time(frames.median),
+            shown_time(frames.p95),
+            shown_time(frames.max)
         );
-        let drawn = format!("{}, {}", pictures.count, text::time(pictures.median));
-        let [shown, settled] = [movement.shown_ms, movement.settled_ms].map(text::time);
+        let drawn = format!("{}, {}", pictures.count, shown_time(pictures.median));
+        let [shown, settled] = [movement.shown_ms, movement.settled_ms].map(shown_time);
         table += &format!(
             "{:<18} {frame:>30} {:>10}   {drawn:>22}   {shown:>10} {settled:>10}\n",
             movement.name, movement.presented

@@ -1,12 +1,12 @@
 //! Files, pictures and render methods for the window.
 
-use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
 use etcetera::BaseStrategy;
+use guideway::cli::window;
 use guideway::compose::{
     Backdrop, FloorPlan, Picture, SweptAreas, VectorFormat, Viewport, draw_swept_areas,
 };
@@ -19,25 +19,19 @@ use guideway_viewer::{
     PendingFileAnswer, PictureRequest, Saved,
 };
 
-use super::{file_dialog, project_file, save};
-use crate::cli::demo;
-use crate::cli::error::usage_error;
-use crate::cli::floor_plan;
-use crate::cli::input::Input;
-use crate::cli::limits;
-use crate::cli::output::{self, Output};
+use crate::{file_dialog, project_file, save};
 
-/// The services of the command.
-pub(super) struct CliServices {
-    /// Start of the command, if it prints how long files take.
+/// The services of the program.
+pub(crate) struct FileServices {
+    /// Start of the program, if it prints how long files take.
     timed_since: Option<Instant>,
     /// True if state, such as recent files and journals, outlives the run.
     keeps_state: bool,
 }
 
-impl CliServices {
+impl FileServices {
     /// The services for a person at a window.
-    pub(super) fn for_window(prints_timings: bool) -> Self {
+    pub(crate) fn for_window(prints_timings: bool) -> Self {
         Self {
             timed_since: prints_timings.then(Instant::now),
             keeps_state: true,
@@ -45,7 +39,7 @@ impl CliServices {
     }
 
     /// The services for a measurement, which leaves no state behind.
-    pub(super) fn for_measurement() -> Self {
+    pub(crate) fn for_measurement() -> Self {
         Self {
             timed_since: None,
             keeps_state: false,
@@ -53,14 +47,14 @@ impl CliServices {
     }
 }
 
-impl AppServices for CliServices {
+impl AppServices for FileServices {
     fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
         let progress = JobProgress(job);
-        Ok(read_file(path, &limits::read_options(Some(&progress)))?)
+        Ok(read_file(path, &window::read_options(Some(&progress)))?)
     }
 
     fn example_site(&self) -> Result<Layout, UserError> {
-        demo::read_site()
+        window::example_site()
     }
 
     fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
@@ -81,7 +75,7 @@ impl AppServices for CliServices {
     }
 
     fn write_project(&self, path: &Path, text: &str) -> Result<(), UserError> {
-        output::save(path, text.as_bytes())
+        window::save_file(path, text.as_bytes())
     }
 
     fn layout_formats(&self) -> Vec<FileFormat> {
@@ -102,13 +96,7 @@ impl AppServices for CliServices {
     }
 
     fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
-        let input = Input::parse(OsString::from(plan)).map_err(|problem| {
-            usage_error(
-                format!("`{plan}` is not a floor plan: {problem}"),
-                "Write a file name and its placement, such as `hall.png@px-per-m=20,offset=-3,-2`",
-            )
-        })?;
-        floor_plan::read(&input, None, &Output::new(false, true))
+        window::read_floor_plan(plan)
     }
 
     fn render(&self, request: &PictureRequest, method: &str) -> Result<Frame, UserError> {

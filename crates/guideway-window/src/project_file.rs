@@ -11,7 +11,7 @@ use guideway_viewer::MAX_PROJECT_BYTES;
 ///
 /// # Errors
 /// When it cannot be read, is too long, or is no text.
-pub(super) fn read(path: &Path) -> Result<String, UserError> {
+pub(crate) fn read(path: &Path) -> Result<String, UserError> {
     read_text(path).map_err(|error| {
         UserError::new(
             "project",

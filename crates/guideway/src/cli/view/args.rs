@@ -1,15 +1,11 @@
-//! Arguments of `view`; opens the window.
+//! Arguments of `view`.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use guideway::AUTO;
 use guideway::layout::{UserError, shown_path};
-use guideway_viewer::LaunchOptions;
 
-use super::measure;
-use super::services::CliServices;
-use crate::cli::error::{Exit, usage_error};
+use crate::cli::error::usage_error;
 use crate::cli::output::Output;
 use crate::cli::values;
 
@@ -20,11 +16,11 @@ use crate::cli::values;
 pub(crate) struct Args {
     /// Layout files; the content decides the format
     #[arg(value_name = "FILE")]
-    files: Vec<PathBuf>,
+    pub(super) files: Vec<PathBuf>,
     /// File to show below the layouts: a layout, a drawing, a `map.yaml` of ROS, or a PNG, JPEG
     /// or PGM image with its scale, such as `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", conflicts_with = "measure")]
-    floor_plan: Option<String>,
+    pub(super) floor_plan: Option<String>,
     /// Render method, from `guideway methods`; `auto` selects `gpu` with graphics hardware, else
     /// `cpu`
     #[arg(
@@ -33,42 +29,37 @@ pub(crate) struct Args {
         default_value = AUTO,
         value_parser = values::MethodSpec
     )]
-    method: String,
+    pub(super) method: String,
     /// Print to standard error when each file is read, shown, editable and checked
     #[arg(long, conflicts_with = "measure")]
-    timings: bool,
+    pub(super) timings: bool,
     /// Measure frame times without a window: open one file, pan, zoom and edit it
     #[arg(long)]
-    measure: bool,
+    pub(super) measure: bool,
 }
 
-pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    let method = (args.method != AUTO).then(|| args.method.clone());
-    if args.measure {
-        return measure::measure(&args.files, method, out);
-    }
-    if out.is_json() {
-        return Err(usage_error(
-            "`view` has no JSON output",
-            "Use `info --json`, `check --json` or `view --measure --json`",
-        ));
-    }
-    for file in &args.files {
-        // Before a window opens: the words of the desktop would hide this.
-        if !file.exists() {
-            return Err(UserError::new(
+impl Args {
+    /// Rejects what no window can show, before one opens: the words of the desktop would hide it.
+    pub(super) fn check(&self, out: &Output) -> Result<(), UserError> {
+        if self.measure && self.files.len() != 1 {
+            return Err(usage_error(
+                "--measure takes exactly one file",
+                "Name one, such as `guideway view site.arrow --measure`",
+            ));
+        }
+        if out.is_json() && !self.measure {
+            return Err(usage_error(
+                "`view` has no JSON output",
+                "Use `info --json`, `check --json` or `view --measure --json`",
+            ));
+        }
+        match self.files.iter().find(|file| !file.exists()) {
+            None => Ok(()),
+            Some(file) => Err(UserError::new(
                 "not-found",
                 format!("{}: the file does not exist", shown_path(file)),
                 "Check the spelling and the folder",
-            ));
+            )),
         }
     }
-    let services = CliServices::for_window(args.timings);
-    let launch = LaunchOptions {
-        files: args.files.clone(),
-        floor_plan: args.floor_plan.clone().unwrap_or_default(),
-        method,
-    };
-    guideway_viewer::run(Arc::new(services), launch)?;
-    Ok(Exit::Clean)
 }

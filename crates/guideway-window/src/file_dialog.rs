@@ -8,7 +8,7 @@ use rfd::{AsyncFileDialog, FileHandle};
 
 /// Opens the dialog; `None` if the desktop has none. The answer comes on the thread that waits for
 /// it; macOS wants the dialog itself on the main thread, on which the window calls this.
-pub(super) fn ask(question: &FileQuestion) -> Option<PendingFileAnswer> {
+pub(crate) fn ask(question: &FileQuestion) -> Option<PendingFileAnswer> {
     if !has_desktop() {
         return None;
     }

@@ -1,0 +1,83 @@
+//! The options of every command, and how a run starts and ends: the same for the command and for
+//! the program of the window.
+
+use std::borrow::Cow;
+use std::ffi::{OsStr, OsString};
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+use guideway::formats::Format;
+use guideway::layout::{UserError, shown_lines};
+
+use super::error::{ERROR, Exit, parser_error};
+use super::output::Output;
+use super::{limits, process};
+use crate::out_of_memory;
+
+/// Options that every command takes.
+#[derive(Debug, clap::Args)]
+pub(super) struct GlobalOptions {
+    /// Print one JSON object instead of text, also for errors
+    #[arg(long, global = true)]
+    json: bool,
+    /// Print only errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    /// Set a limit on what is read or written; can be repeated. Names: file-bytes, output-bytes,
+    /// paths, control-points, curve-points, elements, text-bytes, depth, coordinate (in meters)
+    #[arg(long, global = true, value_name = "NAME=VALUE", value_parser = limits::setting)]
+    limit: Vec<limits::Setting>,
+    /// Formats that are read, such as `lif,dxf`; a file of another format is an error [default:
+    /// all]
+    #[arg(
+        long,
+        global = true,
+        value_name = "A,B",
+        value_delimiter = ',',
+        value_parser = limits::format
+    )]
+    formats: Vec<Format>,
+}
+
+/// Parses the arguments, or prints help, version or the error of the parser and returns the exit
+/// code.
+pub(super) fn parse<C: Parser>(args: Vec<OsString>) -> Result<C, ExitCode> {
+    C::try_parse_from(args).map_err(|error| exit_from_parser(&error))
+}
+
+/// Runs a task with the options of every command. Returns its exit code.
+pub(super) fn run(
+    options: &GlobalOptions,
+    task: impl FnOnce(&Output) -> Result<Exit, UserError>,
+) -> ExitCode {
+    let out = Output::new(options.json, options.quiet);
+    if options.json {
+        out_of_memory::report_as_json();
+    }
+    limits::set(&options.limit, &options.formats);
+    let ready = process::watch().and_then(|()| process::start_threads());
+    match ready.and_then(|()| task(&out)) {
+        Ok(exit) => ExitCode::from(exit.code()),
+        Err(error) => {
+            out.error(&error);
+            ExitCode::from(ERROR)
+        }
+    }
+}
+
+/// Prints help, version or the error of the parser.
+fn exit_from_parser(error: &clap::Error) -> ExitCode {
+    let wants_json = std::env::args_os().any(|arg| arg == OsStr::new("--json"));
+    if error.use_stderr() && wants_json {
+        Output::new(true, false).error(&parser_error(error));
+    } else {
+        let text = error.render().to_string();
+        // Only a closed pipe can fail here, and its reader wants no more.
+        let _ = match shown_lines(&text) {
+            Cow::Borrowed(_) => error.print(),
+            Cow::Owned(shown) => io::stderr().write_all(shown.as_bytes()),
+        };
+    }
+    ExitCode::from(error.exit_code() as u8)
+}
