@@ -114,7 +114,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("svgtypes", "guideway-formats"),
     (
         "serde_json",
-        "guideway-formats guideway-envelope guideway guideway-tests guideway-window",
+        "guideway-formats guideway-envelope guideway guideway-tests guideway-window xtask",
     ),
     ("anstream", "guideway"),
     ("clap", "guideway"),

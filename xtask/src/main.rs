@@ -1,7 +1,9 @@
 //! Project chores: `cargo xtask test` installs what it needs and runs every check.
 
 mod conformance;
+mod pack;
 mod prerequisites;
+mod published;
 mod step;
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
@@ -26,6 +28,7 @@ cargo xtask fuzz [MINUTES [TARGET...]]
 cargo xtask sanitize    reading of Arrow files, whose decoder has code in C, under AddressSanitizer
 cargo xtask conformance [--quick] [FORMAT...]
                         what is read and written, compared with other implementations; a table
+cargo xtask dist        packages of a release in target/dist/packages: .deb, .tar.xz, checksums, SBOM
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
 ";
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
         ("fuzz", rest) => fuzz(rest),
         ("sanitize", []) => sanitize(),
         ("soak", rest) => soak(rest),
+        ("dist", []) => pack::run(),
         ("style", []) => style(""),
         ("style", [word]) => style(word),
         _ => {
@@ -81,6 +85,8 @@ fn test() -> Result<()> {
         .env("RUSTDOCFLAGS", "-D warnings")
         .run()?;
     step::command(&mdbook).args(["build", "docs"]).run()?;
+    heading("packages of the crates");
+    published::check()?;
     heading("licenses, sources and bans");
     step::command(&deny)
         .args(["check", "bans", "licenses", "sources"])

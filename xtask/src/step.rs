@@ -13,6 +13,7 @@ pub(crate) struct Step(Command);
 /// The result of a captured command.
 pub(crate) struct Captured {
     pub(crate) succeeded: bool,
+    pub(crate) stdout: String,
     pub(crate) stderr: String,
 }
 
@@ -80,10 +81,11 @@ impl Step {
             .0
             .output()
             .with_context(|| format!("cannot start {:?}", self.0))?;
-        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         Ok(Captured {
             succeeded: output.status.success(),
-            stderr,
+            stdout: text(&output.stdout),
+            stderr: text(&output.stderr),
         })
     }
 

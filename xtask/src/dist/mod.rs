@@ -1,0 +1,25 @@
+//! `cargo xtask dist`: release builds to packages that install, with checksums and a bill of
+//! materials.
+//!
+//! | module | purpose |
+//! |---|---|
+//! | `build` | optimized binaries without paths of this machine |
+//! | `dependencies` | the crates in them, from `cargo metadata` |
+//! | `licenses` | the license texts of these crates |
+//! | `sbom` | the crates as a CycloneDX bill of materials |
+//! | `tree` | the files of an installation, below a folder |
+//! | `package` | a `.deb` and a `.tar.xz` of that tree, and the checksums |
+
+mod build;
+mod dependencies;
+mod licenses;
+mod package;
+mod sbom;
+mod tree;
+
+pub use build::{Binaries, release};
+pub use dependencies::{Dependency, dependencies};
+pub use licenses::notices;
+pub use package::{Compression, archive, checksums, deb};
+pub use sbom::sbom;
+pub use tree::stage;
