@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
 
+#[cfg(unix)]
+mod action;
 mod arrow;
 mod bench;
 mod checks;
