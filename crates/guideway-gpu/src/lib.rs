@@ -8,5 +8,5 @@ pub mod device;
 pub mod testing;
 mod tiles;
 
-pub use device::{DeviceError, Gpu, GpuOptions};
+pub use device::{DeviceError, Gpu, GpuOptions, adapters};
 pub use tiles::{Tiles, TilesOptions};

@@ -52,12 +52,22 @@ pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), 
                 "cannot open a window: {}",
                 without_source_path(&error.to_string())
             ),
-            "A window needs a desktop (X11 or Wayland on Linux) and a graphics adapter. On Debian \
-             or Ubuntu install `libvulkan1` and `mesa-vulkan-drivers`, which need no hardware. \
-             `guideway render` needs neither",
+            WINDOW_NEEDS,
         )
     })
 }
+
+/// The needs of a window, in the words of the system.
+const WINDOW_NEEDS: &str = if cfg!(windows) {
+    "A window needs Vulkan or DirectX 12. Install the driver of the graphics card's maker, or in a \
+     remote session ask for one with graphics. `guideway render` needs neither"
+} else if cfg!(target_os = "macos") {
+    "A window needs a session on the screen and Metal, which macOS 10.14 and later have. `guideway \
+     render` needs neither"
+} else {
+    "A window needs a desktop (X11 or Wayland) and a graphics adapter. On Debian or Ubuntu install \
+     `libvulkan1` and `mesa-vulkan-drivers`, which need no hardware. `guideway render` needs neither"
+};
 
 /// The font of the system for a letter that the fonts of the window lack: the one of pictures.
 fn system_font_for(cluster: &str) -> Option<FontInsert> {

@@ -202,6 +202,6 @@ pub use guideway_formats::{
     NewFile, SaveError, remove_unfinished, replace_file, try_remove_unfinished,
 };
 pub use methods::{
-    AUTO, Available, MethodError, MethodOption, live_method, method,
+    AUTO, Available, MethodError, MethodOption, graphics_adapters, live_method, method,
     method_names, methods,
 };

@@ -18,7 +18,7 @@ pub enum GlError {
     #[error("the OpenGL thread ended unexpectedly; retry, and report this error")]
     ThreadEnded,
     /// libEGL is missing or too old.
-    #[error("libEGL 1.5 cannot be loaded: {message}")]
+    #[error("it needs EGL, which Linux has: libEGL 1.5 cannot be loaded: {message}")]
     NoEgl {
         /// Message of the loader.
         message: String,

@@ -2,7 +2,9 @@
 
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-use wgpu::{Adapter, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, Queue};
+use wgpu::{
+    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, Queue,
+};
 
 use super::error::DeviceError;
 use super::options::GpuOptions;
@@ -34,6 +36,27 @@ pub(super) fn open(options: GpuOptions) -> Result<(Adapter, Device, Queue), Devi
         let reasons = reasons.join("; ");
         Err(DeviceError::NotOpened { reasons })
     }
+}
+
+/// The adapters of this computer with backend, kind and driver, hardware first. They may fail to
+/// open.
+pub fn adapters() -> Vec<String> {
+    let instance = INSTANCE.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY));
+    let mut found: Vec<AdapterInfo> = found.iter().map(Adapter::get_info).collect();
+    found.sort_by_key(|info| preference(info.device_type));
+    let shown = found.iter().map(|info| {
+        let driver = format!("{} {}", info.driver, info.driver_info);
+        let kind = match info.device_type {
+            DeviceType::DiscreteGpu => "graphics card",
+            DeviceType::IntegratedGpu => "graphics in the processor",
+            DeviceType::VirtualGpu => "virtual graphics card",
+            DeviceType::Other => "unknown kind",
+            DeviceType::Cpu => "program on the processor",
+        };
+        format!("{}: {}, {kind}, {}", info.name, info.backend, driver.trim())
+    });
+    shown.collect()
 }
 
 fn preference(kind: DeviceType) -> u8 {

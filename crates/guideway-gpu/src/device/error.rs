@@ -2,15 +2,22 @@
 
 use guideway_scene::RenderError;
 
+/// The reason and the remedy in the words of the system.
+const NO_ADAPTER: &str = if cfg!(windows) {
+    "neither Vulkan nor DirectX 12 runs. Install the driver of the graphics card's maker; Windows 10 \
+     and later draw by DirectX 12 without one, unless a policy forbids it"
+} else if cfg!(target_os = "macos") {
+    "Metal does not run. It needs macOS 10.14 or later and a session on the screen"
+} else {
+    "there is no Vulkan loader, or no driver for it. On Debian or Ubuntu install `libvulkan1` and \
+     `mesa-vulkan-drivers`, which also draw without graphics hardware"
+};
+
 /// The reason why an operation of the graphics device failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DeviceError {
     /// The computer has no graphics adapter or no driver for it.
-    #[error(
-        "no graphics adapter was found: there is no Vulkan loader, or no driver for it. On Debian \
-         or Ubuntu install `libvulkan1` and `mesa-vulkan-drivers`, which also draw without \
-         graphics hardware"
-    )]
+    #[error("no graphics adapter was found: {NO_ADAPTER}")]
     NoAdapter,
     /// Every adapter refused to open.
     #[error("no graphics adapter could be opened: {reasons}")]

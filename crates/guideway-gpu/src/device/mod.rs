@@ -20,6 +20,7 @@ mod patch;
 mod readback;
 mod runner;
 
+pub use adapter::adapters;
 pub use error::DeviceError;
 pub use gpu::Gpu;
 pub use kernel::{Bindings, Kernel, Source};

@@ -10,7 +10,7 @@ use super::error::Exit;
 use super::output::Output;
 use super::start::{self, GlobalOptions};
 use super::{
-    bench, check, convert, default_command, demo, diff, edit, generate, info, methods,
+    bench, check, convert, default_command, demo, diff, doctor, edit, generate, info, methods,
     network, process, render, reproduce, route, shell, view,
 };
 
@@ -57,6 +57,8 @@ enum Command {
     Generate(generate::Args),
     /// List the render methods and whether they run on this computer
     Methods,
+    /// List what this computer has for Guideway, for the report of a fault
+    Doctor,
     /// Measure render methods side by side
     Bench(Box<bench::Args>),
     /// Measure the tables and figures of the thesis on this computer
@@ -99,6 +101,7 @@ fn run(command: &Command, args: &[OsString], out: &Output) -> Result<Exit, UserE
         Command::Route(args) => route::run(args, out),
         Command::Generate(args) => generate::run(args, out),
         Command::Methods => methods::run(out),
+        Command::Doctor => doctor::run(out),
         Command::Bench(args) => bench::run(args, out),
         Command::Reproduce(args) => reproduce::run(args, out),
         Command::Demo(args) => demo::run(args, out),

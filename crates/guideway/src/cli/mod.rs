@@ -18,6 +18,7 @@ mod convert;
 mod default_command;
 mod demo;
 mod diff;
+mod doctor;
 mod edit;
 mod envelope;
 mod error;

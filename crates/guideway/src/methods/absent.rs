@@ -17,6 +17,11 @@ pub(super) mod gpu {
         start: |_| Err(absent("gpu")),
     };
 
+    /// `None`: the build cannot see any.
+    pub(in crate::methods) fn adapters() -> Option<Vec<String>> {
+        None
+    }
+
     /// Returns `false`: the build has no graphics device.
     pub(in crate::methods) fn is_in_hardware() -> bool {
         false

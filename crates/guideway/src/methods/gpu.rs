@@ -109,6 +109,11 @@ pub(super) fn is_in_hardware() -> bool {
     DEVICE.as_ref().is_ok_and(|device| !device.is_software())
 }
 
+/// The graphics adapters of this computer with their drivers, hardware first.
+pub(super) fn adapters() -> Option<Vec<String>> {
+    Some(guideway_gpu::adapters())
+}
+
 /// Opened once for all methods and options.
 static DEVICE: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
 

@@ -18,5 +18,5 @@ mod tessellation;
 
 pub use entry::MethodOption;
 pub use registry::{
-    AUTO, Available, MethodError, live_method, method, method_names, methods,
+    AUTO, Available, MethodError, graphics_adapters, live_method, method, method_names, methods,
 };

@@ -155,6 +155,12 @@ pub fn live_method() -> &'static str {
     }
 }
 
+/// The graphics adapters of this computer with their drivers, hardware first. `None` in a build
+/// without the feature `gpu`.
+pub fn graphics_adapters() -> Option<Vec<String>> {
+    gpu::adapters()
+}
+
 /// Starts a method by its name and options, such as `grid+scan+aa=subpixel`. [`AUTO`] starts the
 /// best general method that runs on this computer.
 ///

@@ -179,6 +179,7 @@ fn answers_of_every_command_conform() {
         ],
         &["generate", "d1", "--paths", "100", "-o", "d1.arrow"],
         &["methods"],
+        &["doctor"],
         &["completions", "bash"],
         &["man"],
         &["man", "pages"],
