@@ -72,7 +72,7 @@ impl Plan {
                 target_ms: 1000.0 / 60.0,
                 start: 64_000,
                 least: 1_000,
-                ceiling: 4_000_000,
+                ceiling: 100_000_000,
                 tolerance: 0.02,
             },
             warmup: 5,
