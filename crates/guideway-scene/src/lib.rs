@@ -18,7 +18,7 @@
 //! | `scene/`, `color`, `color_by`, `ramp`, `style`, `density` | appearance of the paths |
 //! | `edit/`, `table` | changes of a scene and their inverses |
 //! | `cluster/` | the spatial index of paths, nodes and strokes |
-//! | `view`, `frame`, `strip` | the picture |
+//! | `view`, `frame`, `strip`, `device_picture` | the picture |
 //! | `method`, `report`, `error` | the contract of render methods |
 //! | `draw_list` | decorations over or below the paths |
 
@@ -26,6 +26,7 @@ pub mod cluster;
 mod color;
 mod color_by;
 pub mod density;
+mod device_picture;
 mod draw_list;
 mod edit;
 mod error;
@@ -41,6 +42,7 @@ mod view;
 
 pub use color::{ParseColorError, Rgba};
 pub use color_by::{ColorBy, Legend, LegendEntry, LegendScale};
+pub use device_picture::DevicePicture;
 pub use draw_list::{DrawList, Fill, TextLine};
 pub use edit::{Edit, EditError, Gesture, GesturePaths, Insertion, NewNode, NewStation, TableEdit};
 pub use error::RenderError;

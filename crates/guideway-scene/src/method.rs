@@ -3,11 +3,13 @@
 //! [`Method::prepare`] turns a [`Scene`] into a [`Prepared`], which renders any [`View`] into a
 //! [`Frame`] and returns a [`Report`].
 
+use std::any::Any;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::{
-    Edit, Frame, Gesture, Preparation, RenderError, Report, Scene, Strip, Style, View, Work,
+    DevicePicture, Edit, Frame, Gesture, Preparation, RenderError, Report, Scene, Strip, Style,
+    View, Work,
 };
 
 /// A renderer. Immutable, so threads can share it.
@@ -64,6 +66,28 @@ pub trait Prepared: Send {
             });
         }
         self.render(strip.view(), style, cancel, frame)
+    }
+
+    /// The graphics device that the method draws on, as an object of its library, such as a
+    /// `wgpu::Device`; `None` if it draws in main memory. A caller that shares the device shows
+    /// the pictures of [`Self::render_on_device`] without a copy.
+    fn device(&self) -> Option<&(dyn Any + Send + Sync)> {
+        None
+    }
+
+    /// Renders a view into memory of [`Self::device`]. The pixels are those of [`Self::render`].
+    /// The device may still draw when this returns; what the caller submits later comes after it.
+    /// `None` if the method renders this style only into main memory.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    fn render_on_device(
+        &mut self,
+        _view: &View,
+        _style: &Style,
+        _cancel: &Cancel,
+    ) -> Result<Option<(DevicePicture, Report)>, RenderError> {
+        Ok(None)
     }
 
     /// Applies an edit to the prepared scene, at a cost proportional to what the edit touches. The

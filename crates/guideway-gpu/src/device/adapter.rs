@@ -69,7 +69,8 @@ fn preference(kind: DeviceType) -> u8 {
     }
 }
 
-fn descriptor_for(adapter: &Adapter, options: GpuOptions) -> DeviceDescriptor<'static> {
+/// The limits and features of an adapter that methods use, below artificial limits.
+pub(super) fn descriptor_for(adapter: &Adapter, options: GpuOptions) -> DeviceDescriptor<'static> {
     let mut limits = adapter.limits();
     if let Some(bytes) = options.storage_binding_bytes {
         let binding = &mut limits.max_storage_buffer_binding_size;

@@ -14,7 +14,7 @@ const MIN_LOOPS: u32 = 4096;
 /// Longest wait for one submission; a device that takes longer counts as hung.
 pub(super) const TIMEOUT: Duration = Duration::from_secs(120);
 
-/// A graphics device without a window.
+/// An open graphics device.
 #[derive(Debug)]
 pub struct Gpu {
     pub(super) device: wgpu::Device,
@@ -42,6 +42,26 @@ impl Gpu {
     /// As [`Self::new`].
     pub fn with_options(options: GpuOptions) -> Result<Arc<Self>, DeviceError> {
         let (adapter, device, queue) = adapter::open(options)?;
+        Ok(Self::of(&adapter, device, queue, options))
+    }
+
+    /// Uses a device that the caller opened and draws on too. Its limits and features should be
+    /// those of [`Self::descriptor`].
+    pub fn shared(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Arc<Self> {
+        Self::of(adapter, device, queue, GpuOptions::default())
+    }
+
+    /// The limits and features of an adapter that methods use.
+    pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+        adapter::descriptor_for(adapter, GpuOptions::default())
+    }
+
+    fn of(
+        adapter: &wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        options: GpuOptions,
+    ) -> Arc<Self> {
         let failure = Arc::new(Mutex::new(None));
         let recorder = |failure: &Arc<Mutex<Option<String>>>| {
             let failure = Arc::clone(failure);
@@ -59,20 +79,33 @@ impl Gpu {
         }));
         let has_timestamps = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         let tick_ns = has_timestamps.then(|| f64::from(queue.get_timestamp_period()));
-        Ok(Arc::new(Self {
+        Arc::new(Self {
             info: adapter.get_info(),
             device,
             queue,
             options,
             tick_ns,
             failure,
-        }))
+        })
     }
 
     /// Name of the adapter and its driver, for reports.
     pub fn adapter_name(&self) -> String {
         let driver = format!("{} {}", self.info.driver, self.info.driver_info);
         format!("{} ({})", self.info.name, driver.trim())
+    }
+
+    /// The device itself.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// Returns `true` after a failure that no operation could report, such as the loss of the
+    /// device: every operation fails from then on.
+    pub fn is_lost(&self) -> bool {
+        // The poll runs the callbacks that record a loss.
+        drop(self.device.poll(wgpu::PollType::Poll));
+        self.check_alive().is_err()
     }
 
     /// Returns `true` if the device is a program on the processor.
@@ -145,7 +178,7 @@ impl Gpu {
     }
 
     /// Runs an operation within error scopes. Returns its result, or its first error.
-    pub(super) fn checked<R>(
+    pub(crate) fn checked<R>(
         &self,
         operation: &str,
         run: impl FnOnce() -> R,
@@ -216,6 +249,12 @@ impl Gpu {
                 reason: reason.clone(),
             }),
         }
+    }
+
+    /// Submits commands of a test.
+    #[cfg(test)]
+    pub(crate) fn submit(&self, commands: wgpu::CommandBuffer) {
+        self.queue.submit([commands]);
     }
 
     /// Destroys the device, as a driver crash does.

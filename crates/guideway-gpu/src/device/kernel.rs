@@ -25,7 +25,7 @@ pub struct Kernel {
     bindings: usize,
 }
 
-/// The buffers of one kernel, in the order of [`Source::bindings`].
+/// The buffers and textures of one kernel, in the order of [`Source::bindings`].
 pub struct Bindings(pub(super) wgpu::BindGroup);
 
 impl Kernel {
@@ -70,14 +70,36 @@ impl Kernel {
     /// # Errors
     /// [`DeviceError::Rejected`] if a buffer does not suit its binding.
     pub fn bind(&self, gpu: &Gpu, buffers: &[&DeviceBuffer]) -> Result<Bindings, DeviceError> {
-        debug_assert_eq!(buffers.len(), self.bindings, "{}", self.name);
+        let buffers = buffers.iter().map(|buffer| buffer.raw());
+        self.bind_resources(gpu, buffers.map(wgpu::Buffer::as_entire_binding))
+    }
+
+    /// Binds one buffer per binding but the last, which is a texture.
+    ///
+    /// # Errors
+    /// [`DeviceError::Rejected`] if a buffer or the texture does not suit its binding.
+    pub fn bind_with_texture(
+        &self,
+        gpu: &Gpu,
+        buffers: &[&DeviceBuffer],
+        texture: &wgpu::TextureView,
+    ) -> Result<Bindings, DeviceError> {
+        let buffers = buffers.iter().map(|buffer| buffer.raw());
+        let buffers = buffers.map(wgpu::Buffer::as_entire_binding);
+        let texture = wgpu::BindingResource::TextureView(texture);
+        self.bind_resources(gpu, buffers.chain([texture]))
+    }
+
+    fn bind_resources<'a>(
+        &self,
+        gpu: &Gpu,
+        resources: impl Iterator<Item = wgpu::BindingResource<'a>>,
+    ) -> Result<Bindings, DeviceError> {
         let entries: Vec<_> = (0..)
-            .zip(buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.raw().as_entire_binding(),
-            })
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
+        debug_assert_eq!(entries.len(), self.bindings, "{}", self.name);
         let descriptor = wgpu::BindGroupDescriptor {
             label: Some(self.name),
             layout: &self.layout,

@@ -32,3 +32,9 @@ pub use runner::{Dispatch, Runner};
 
 #[cfg(test)]
 mod tests;
+
+/// Opens an adapter as a caller does that shares its device.
+#[cfg(test)]
+pub(crate) fn open_for_tests() -> Result<(wgpu::Adapter, wgpu::Device, wgpu::Queue), DeviceError> {
+    adapter::open(GpuOptions::default())
+}

@@ -75,6 +75,8 @@ fn structures_have_the_same_layout() {
     assert_layout(&sources, "Cluster", &cluster);
     let scroll = members!(ScrollParams: width_px, height_px, right_px, down_px);
     assert_layout(&sources, "Scroll", &scroll);
+    let part = members!(PresentParams: width_px, first_pixel, pixels, unused);
+    assert_layout(&sources, "Part", &part);
     assert_layout(&sources, "Stroke", &members!(Stroke: extent, rank));
     assert_layout(&sources, "Style", &members!(PathStyle: color, width_m));
     let counters = members!(FrameCounters: rounded_clusters, exact_clusters, lines, references,

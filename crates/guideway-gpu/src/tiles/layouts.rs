@@ -72,6 +72,16 @@ pub(crate) struct ScrollParams {
     pub(crate) down_px: i32,
 }
 
+/// Pixels that become part of a texture. WGSL: `Part` of `present.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct PresentParams {
+    pub(crate) width_px: u32,
+    pub(crate) first_pixel: u32,
+    pub(crate) pixels: u32,
+    pub(crate) unused: u32,
+}
+
 /// Neighboring strokes with a common origin. WGSL: `Cluster` of `flatten/cluster.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]

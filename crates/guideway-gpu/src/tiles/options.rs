@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::frame::presenter::Presenter;
 use super::kernels::Kernels;
-use crate::device::{DeviceError, Gpu};
+use crate::device::{DeviceError, Gpu, Kernel};
 
 /// Name of the method.
 pub(crate) const NAME: &str = "gpu";
@@ -35,6 +36,8 @@ pub(crate) struct Shared {
     counting_kernels: OnceLock<Result<Arc<Kernels>, DeviceError>>,
     /// Compiled when a gesture first turns, mirrors or scales paths.
     mapping_kernels: OnceLock<Result<Arc<Kernels>, DeviceError>>,
+    /// Compiled when a picture first stays on the device.
+    presenting_kernel: OnceLock<Result<Kernel, DeviceError>>,
     pub(crate) options: TilesOptions,
 }
 
@@ -44,6 +47,7 @@ impl Shared {
             kernels: Arc::new(Kernels::new(&gpu)?),
             counting_kernels: OnceLock::new(),
             mapping_kernels: OnceLock::new(),
+            presenting_kernel: OnceLock::new(),
             gpu,
             options,
         })
@@ -63,5 +67,13 @@ impl Shared {
             .mapping_kernels
             .get_or_init(|| self.kernels.mapping(&self.gpu).map(Arc::new));
         kernels.clone()
+    }
+
+    /// The kernel that writes a picture to a texture.
+    pub(crate) fn presenting_kernel(&self) -> Result<Kernel, DeviceError> {
+        let kernel = self
+            .presenting_kernel
+            .get_or_init(|| Presenter::kernel(&self.gpu));
+        kernel.clone()
     }
 }

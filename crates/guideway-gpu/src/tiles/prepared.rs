@@ -1,16 +1,20 @@
 //! A prepared scene: routes renders, edits and work counts to the stages.
 
+use std::any::Any;
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, Edit, EditOutcome, Frame, Gesture, Preparation, Prepared, RenderError, Report,
-    Scene, Shading, Stage, Style, View, Work, cluster::DirtyClusters, density, elapsed_ms,
+    Budget, Cancel, DevicePicture, Edit, EditOutcome, Frame, Gesture, Preparation, Prepared,
+    RenderError, Report, Scene, Shading, Stage, Style, View, Work, cluster::DirtyClusters, density,
+    elapsed_ms,
 };
 
 use super::device_context::{DeviceContext, device_error};
 use super::frame::context::FrameContext;
-use super::frame::draw::{count_drawn_paths, draw_picture};
+use super::frame::draw::{count_drawn_paths, draw_picture, fetch_pixels};
+use super::frame::presenter::Presenter;
 use super::frame::renderer::{DrawResult, Renderer};
 use super::frame::target::TargetState;
 use super::kernels::Kernels;
@@ -29,6 +33,8 @@ pub(crate) struct PreparedTiles {
     pub(crate) scene: UploadedScene,
     pub(crate) target: TargetState,
     preparation: Preparation,
+    /// Textures of pictures that stay on the device.
+    pub(crate) presenter: Option<Presenter>,
 }
 
 impl PreparedTiles {
@@ -46,6 +52,7 @@ impl PreparedTiles {
             scene: UploadedScene::new(scene),
             shared,
             preparation: Preparation::default(),
+            presenter: None,
         };
         prepared.upload(prepared.scene.packing)?;
         Ok(prepared)
@@ -123,7 +130,7 @@ impl PreparedTiles {
         frame: &FrameContext<'_>,
         paint: PaintMode,
         cancel: &Cancel,
-        take: impl FnMut(std::ops::Range<usize>, &[u8]),
+        deliver: impl FnMut(&Renderer<'_>, Range<usize>, &mut Vec<Stage>) -> Result<(), RenderError>,
     ) -> Result<DrawResult, RenderError> {
         let mut renderer = Renderer {
             device: &mut self.device,
@@ -132,7 +139,18 @@ impl PreparedTiles {
             target: &mut self.target,
             times_stages: self.shared.options.times_stages,
         };
-        draw_picture(&mut renderer, frame, paint, cancel, take)
+        draw_picture(&mut renderer, frame, paint, cancel, deliver)
+    }
+
+    fn report(&mut self, context: &FrameContext<'_>, result: DrawResult) -> Report {
+        let drawn = count_drawn_paths(&self.scene, context, &result);
+        Report {
+            lines: result.lines,
+            stages: result.stages,
+            peak_bytes: self.device.memory.take_peak_bytes(),
+            bands: result.windows.max(1),
+            ..Report::of(NAME, &self.scene.scene, drawn)
+        }
     }
 
     fn prepare_target(
@@ -177,7 +195,7 @@ impl Prepared for PreparedTiles {
             };
             self.prepare_target(&context, paint)?;
             let kernels = self.kernels()?;
-            result = self.draw(&kernels, &context, paint, cancel, |pixels, bytes| {
+            let mut take = |pixels: Range<usize>, bytes: &[u8]| {
                 let words = bytes.as_chunks().0;
                 if counts.is_empty() {
                     frame.pixels_mut()[pixels].copy_from_slice(words);
@@ -186,6 +204,9 @@ impl Prepared for PreparedTiles {
                         *count = f32::from_le_bytes(*word);
                     }
                 }
+            };
+            result = self.draw(&kernels, &context, paint, cancel, |r, pixels, stages| {
+                fetch_pixels(r, pixels, stages, &mut take)
             })?;
         }
         let mut legend = None;
@@ -194,15 +215,49 @@ impl Prepared for PreparedTiles {
             legend = Some(density::shade(&counts, tone, style.background, frame));
             result.stages.push(Stage::host("shade", elapsed_ms(start)));
         }
-        let drawn = count_drawn_paths(&self.scene, &context, &result);
         Ok(Report {
-            lines: result.lines,
-            stages: result.stages,
-            peak_bytes: self.device.memory.take_peak_bytes(),
-            bands: result.windows.max(1),
             density: legend,
-            ..Report::of(NAME, &scene, drawn)
+            ..self.report(&context, result)
         })
+    }
+
+    fn device(&self) -> Option<&(dyn Any + Send + Sync)> {
+        Some(self.device.gpu.device())
+    }
+
+    /// Density is shaded in main memory.
+    fn render_on_device(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+    ) -> Result<Option<(DevicePicture, Report)>, RenderError> {
+        self.recover()?;
+        if style.shading != Shading::Color || self.scene.buffers.is_none() {
+            return Ok(None);
+        }
+        let scene = Arc::clone(&self.scene.scene);
+        let context = FrameContext::new(view, style, &scene, self.scene.facts)?;
+        let paint = self.scene.facts.paint;
+        self.prepare_target(&context, paint)?;
+        let mut presenter = match self.presenter.take() {
+            Some(presenter) => presenter,
+            None => {
+                let kernel = self.shared.presenting_kernel().map_err(device_error)?;
+                Presenter::new(kernel, &mut self.device)?
+            }
+        };
+        let texture = presenter.texture(&mut self.device, view.size())?;
+        let kernels = self.kernels()?;
+        let result = self.draw(&kernels, &context, paint, cancel, |r, pixels, _| {
+            match &r.target.tiles {
+                Some(tiles) => presenter.present(r.device, &tiles.pixels, pixels, &texture),
+                None => Ok(()),
+            }
+        });
+        self.presenter = Some(presenter);
+        let report = self.report(&context, result?);
+        Ok(Some((DevicePicture::new(texture), report)))
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
@@ -275,8 +330,8 @@ impl Prepared for PreparedTiles {
         let reuses_frames = std::mem::replace(&mut self.target.reuses_frames, false);
         // The first picture finds out how few clusters the view shows: the last view may differ.
         let result = self
-            .draw(&counting, &context, paint, cancel, |_, _| ())
-            .and_then(|_| self.draw(&counting, &context, paint, cancel, |_, _| ()));
+            .draw(&counting, &context, paint, cancel, |_, _, _| Ok(()))
+            .and_then(|_| self.draw(&counting, &context, paint, cancel, |_, _, _| Ok(())));
         self.target.reuses_frames = reuses_frames;
         self.target.drop_bindings();
         Ok(result?.work.work())

@@ -24,6 +24,7 @@ mod exact_points;
 mod gesture;
 mod line_cache;
 mod long_lists;
+mod on_device;
 mod work;
 
 /// The method of all tests: compiling its shaders takes long.

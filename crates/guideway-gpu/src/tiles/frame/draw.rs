@@ -1,5 +1,5 @@
-//! Draws a picture window by window, grows buffers or splits windows that overflow them, and reads
-//! the pixels back.
+//! Draws a picture window by window, and grows buffers or splits windows that overflow them. Reads
+//! pixels back.
 
 use std::ops::Range;
 use std::time::Instant;
@@ -23,14 +23,14 @@ use crate::tiles::options::NAME;
 use crate::tiles::paint_mode::PaintMode;
 use crate::tiles::upload::uploaded_scene::UploadedScene;
 
-/// Draws a picture, or the part of it that cannot be reused. `take` receives rows of pixels: their
-/// range in the picture and their bytes.
+/// Draws a picture, or the part of it that cannot be reused. `deliver` takes rows of pixels, whose
+/// range in the picture it receives, from the start of the pixel buffer.
 pub(crate) fn draw_picture(
     r: &mut Renderer<'_>,
     frame: &FrameContext<'_>,
     paint: PaintMode,
     cancel: &Cancel,
-    mut take: impl FnMut(Range<usize>, &[u8]),
+    mut deliver: impl FnMut(&Renderer<'_>, Range<usize>, &mut Vec<Stage>) -> Result<(), RenderError>,
 ) -> Result<DrawResult, RenderError> {
     let mut result = DrawResult::default();
     let Some(tiles) = &r.target.tiles else {
@@ -53,7 +53,7 @@ pub(crate) fn draw_picture(
         draw_windows(r, frame, paint, windows, first_row, cancel, &mut result)?;
         let rows_px = first_row * TILE_PX..size.height().min(end_row * TILE_PX);
         let pixels = (rows_px.start * size.width()) as usize..(rows_px.end * size.width()) as usize;
-        fetch_pixels(r, pixels, &mut result.stages, &mut take)?;
+        deliver(r, pixels, &mut result.stages)?;
     }
     if r.target.reuses_frames {
         r.target.picture = Some(picture);
@@ -229,8 +229,9 @@ fn grow_lines(
     Ok(fits)
 }
 
-/// Fetches the first pixels of the pixel buffer, which are these of the picture.
-fn fetch_pixels(
+/// Fetches the first pixels of the pixel buffer, which are these of the picture. `take` receives
+/// their range in the picture and their bytes, part by part.
+pub(crate) fn fetch_pixels(
     r: &Renderer<'_>,
     pixels: Range<usize>,
     stages: &mut Vec<Stage>,

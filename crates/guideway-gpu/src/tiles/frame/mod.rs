@@ -11,6 +11,7 @@
 //! | `renderer` | arguments and result of the draw functions |
 //! | `near_points` | keeps exact points of near clusters on the device |
 //! | `draw_window`, `draw` | draw a window; draw a picture window by window, and fetch it |
+//! | `presenter` | writes a picture to a texture instead |
 
 pub(crate) mod capacity;
 pub(crate) mod context;
@@ -22,6 +23,7 @@ pub(crate) mod line_lod;
 pub(crate) mod line_source;
 mod near_points;
 pub(crate) mod occlusion;
+pub(crate) mod presenter;
 pub(crate) mod renderer;
 pub(crate) mod target;
 pub(crate) mod tile_buffers;

@@ -50,6 +50,7 @@ pub(crate) const FILES: &[(&str, &str)] = files![
     "flatten/stroke.wgsl",
     "flatten/subdivision.wgsl",
     "flatten/visible_clusters.wgsl",
+    "present.wgsl",
     "shared/blend.wgsl",
     "shared/capsule.wgsl",
     "shared/counters.wgsl",

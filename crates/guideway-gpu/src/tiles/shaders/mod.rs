@@ -9,6 +9,8 @@
 //! | `cache` | bins cached lines, invalidates edited lines, scrolls pictures |
 //! | `shared` | structures and functions of several stages |
 //!
+//! `present` writes the finished picture to a texture.
+//!
 //! Each entry point has a file of its own, named in [`ENTRIES`]. `import` resolves its imports.
 
 mod files;
@@ -105,6 +107,12 @@ pub(crate) const SCROLL: Entry = Entry {
     name: "scroll",
     file: "cache/scroll.wgsl",
     bindings: &["scroll", "old_pixels", "pixels"],
+};
+
+pub(crate) const PRESENT: Entry = Entry {
+    name: "present",
+    file: "present.wgsl",
+    bindings: &["part", "pixels", "picture"],
 };
 
 pub(crate) const TILE_OFFSETS: Entry = Entry {
@@ -207,13 +215,14 @@ const LAYERS: Entry = Entry {
 
 /// Files of all entry points.
 #[cfg(test)]
-pub(crate) const ENTRIES: [&str; 14] = [
+pub(crate) const ENTRIES: [&str; 15] = [
     CULL.file,
     FLATTEN.file,
     INVALIDATE_LINES.file,
     COUNT_CACHED.file,
     BIN_CACHED.file,
     SCROLL.file,
+    PRESENT.file,
     TILE_OFFSETS.file,
     SPLIT_TILES.file,
     BIN_LINES.file,
