@@ -4,7 +4,8 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use guideway_scene::{Edit, Gesture, RenderError, Scene};
+use guideway_layout::OwnStyle;
+use guideway_scene::{Edit, Gesture, PathState, RenderError, Scene};
 use guideway_spline::{Affine, Point};
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +22,7 @@ pub struct Moves {
     pub way: Way,
 }
 
-/// Way in which paths move from frame to frame.
+/// Way in which paths change from frame to frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
@@ -33,6 +34,10 @@ pub enum Way {
     Drop,
     /// Each gets its own new curve.
     Apart,
+    /// They do not move: they are removed, and the next frame undoes that.
+    Remove,
+    /// They do not move: they get another color and width, and the next frame undoes that.
+    Restyle,
 }
 
 /// A change and its inverse; frames apply them alternately.
@@ -52,13 +57,15 @@ impl Edits {
         let paths = evenly_spaced(scene.row_count(), moves.share);
         Self {
             gestures: (moves.way == Way::Gesture).then(|| gestures(&paths)),
-            there_and_back: if moves.way == Way::Apart {
-                move_separately(scene, &paths)
-            } else {
-                [BY_M, BY_M * -1.0].map(|by_m| Edit::Transform {
+            there_and_back: match moves.way {
+                Way::Apart => move_separately(scene, &paths),
+                Way::Gesture | Way::Drop => [BY_M, BY_M * -1.0].map(|by_m| Edit::Transform {
                     paths: Arc::clone(&paths),
                     by: Affine::translation(by_m),
-                })
+                }),
+                Way::Remove => [PathState::Removed, PathState::Shown]
+                    .map(|state| Edit::SetStates(paths.iter().map(|&row| (row, state)).collect())),
+                Way::Restyle => restyle(scene, &paths),
             },
             before: Arc::clone(scene),
             after: OnceCell::new(),
@@ -123,6 +130,19 @@ fn move_separately(scene: &Scene, paths: &Arc<[u32]>) -> [Edit; 2] {
     })
 }
 
+/// Another color and width for each path, and its own again.
+fn restyle(scene: &Scene, paths: &[u32]) -> [Edit; 2] {
+    let other = OwnStyle {
+        width_m: Some(0.2),
+        color_rgba: Some(0x2050_c0ff),
+    };
+    let own = |row: u32| scene.layout().paths.own_style(row as usize);
+    [
+        Edit::Restyle(paths.iter().map(|&row| (row, other)).collect()),
+        Edit::Restyle(paths.iter().map(|&row| (row, own(row))).collect()),
+    ]
+}
+
 /// A share of the rows, at even distances.
 fn evenly_spaced(rows: usize, share: f64) -> Arc<[u32]> {
     let count = ((rows as f64 * share).round() as usize).max(1).min(rows);
@@ -184,8 +204,34 @@ mod tests {
     }
 
     #[test]
+    fn removal_and_styles_are_undone_by_the_next_frame() {
+        let scene = Dataset::D1.scene(100);
+        let looks = |scene: &Scene| -> Vec<_> {
+            let rows = 0..scene.row_count() as u32;
+            let look = |row| (scene.state(row), scene.color(row), scene.width_m(row));
+            rows.map(look).collect()
+        };
+        for way in [Way::Remove, Way::Restyle] {
+            let edits = Edits::new(&scene, Moves { share: 0.2, way });
+            let mut edited = Scene::clone(&scene);
+            edited.edit(edits.edit(0)).unwrap();
+            let changed = looks(&edited);
+            let changed = changed.iter().zip(looks(&scene)).filter(|(a, b)| **a != *b);
+            assert_eq!(changed.count(), 20, "{way:?}");
+            edited.edit(edits.edit(1)).unwrap();
+            assert_eq!(looks(&edited), looks(&scene), "{way:?}");
+        }
+    }
+
+    #[test]
     fn an_empty_scene_has_no_paths_to_move() {
-        for way in [Way::Gesture, Way::Drop, Way::Apart] {
+        for way in [
+            Way::Gesture,
+            Way::Drop,
+            Way::Apart,
+            Way::Remove,
+            Way::Restyle,
+        ] {
             let moves = Moves { share: 0.5, way };
             assert_eq!(Edits::new(&Dataset::D1.scene(0), moves).path_count(), 0);
         }

@@ -110,6 +110,25 @@ impl Track {
         self.last = sample.report;
     }
 
+    /// Wall times of as many frames, one after the other, whose pictures stay on the device; empty
+    /// if the method draws only into main memory.
+    fn device_wall_ms(
+        &self,
+        runner: &mut Runner<'_>,
+        request: &FrameRequest,
+        cancel: &Cancel,
+    ) -> Result<Vec<f64>, MeasureError> {
+        let mut all = Vec::new();
+        let frames = request.frames.warmup + self.frame_ms.len();
+        for number in self.drawn..self.drawn + frames {
+            match runner.draw_on_device(request, number, cancel)? {
+                Some(wall_ms) => all.push(wall_ms),
+                None => return Ok(Vec::new()),
+            }
+        }
+        Ok(all.split_off(request.frames.warmup))
+    }
+
     fn finish(
         self,
         runner: &mut Runner<'_>,
@@ -126,6 +145,7 @@ impl Track {
         let stages = self.stages.iter().map(|(name, clock, samples)| {
             Ok(StageTime::new(name, *clock, summary(samples)?.median))
         });
+        let device_wall_ms = self.device_wall_ms(runner, request, cancel)?;
         let work = runner.count_work(request, cancel)?;
         let (held_bytes, prepare_peak_bytes) = runner.held_and_peak_bytes();
         Ok(Measured {
@@ -133,6 +153,7 @@ impl Track {
             first_frame: self.first,
             frame_ms: summary(&self.frame_ms)?,
             wall_ms: summary(&self.wall_ms)?,
+            device_wall_ms: Summary::of(&device_wall_ms),
             update_ms: Summary::of(&self.update_ms),
             update_bytes: self.update_bytes,
             update_is_gesture: self.update_is_gesture,

@@ -64,6 +64,10 @@ pub struct Measured {
     pub frame_ms: Summary,
     /// Wall time of the same work, including transfers to and from the device.
     pub wall_ms: Summary,
+    /// Wall time of the same work where the picture stays on the device, as a window shows it;
+    /// `None` if the method draws only into main memory.
+    #[serde(default)]
+    pub device_wall_ms: Option<Summary>,
     /// Update of the prepared scene, with [`crate::Motion::Edit`].
     pub update_ms: Option<Summary>,
     /// Bytes that the last edit uploaded to the device; `None` without an edit, or if the method

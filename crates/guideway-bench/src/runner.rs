@@ -142,6 +142,29 @@ impl<'m> Runner<'m> {
         })
     }
 
+    /// Draws frame `number` of a request and leaves its picture on the device. Returns the wall
+    /// time of the call in milliseconds; `None` if the method draws only into main memory.
+    ///
+    /// # Errors
+    /// As [`Self::draw`].
+    pub fn draw_on_device(
+        &mut self,
+        request: &FrameRequest,
+        number: usize,
+        cancel: &Cancel,
+    ) -> Result<Option<f64>, RenderError> {
+        cancel.check()?;
+        let view = request.motion.view(&request.view, number)?;
+        let started = Instant::now();
+        if let Some(edits) = &request.edits {
+            self.update(edits, number)?;
+        }
+        let drawn = self
+            .prepared
+            .render_on_device(&view, &request.style, cancel)?;
+        Ok(drawn.map(|_| elapsed_ms(started)))
+    }
+
     /// Shows a gesture, or edits the prepared scene in place, or prepares the edited scene if the
     /// method cannot.
     fn update(&mut self, edits: &Edits, number: usize) -> Result<Update, RenderError> {

@@ -56,6 +56,13 @@ fn edits_move_the_requested_share_but_at_least_one_path() {
         said.contains("moved each frame, each its own way"),
         "{said}"
     );
+    for (flag, text) in [
+        ("--remove", "removed by each frame or restored"),
+        ("--restyle", "restyled by each frame"),
+    ] {
+        let said = stdout(&tiny(&["--methods", "cpu", "--motion", "edit", flag]));
+        assert!(said.contains(text), "{said}");
+    }
 }
 
 #[test]
@@ -160,6 +167,8 @@ fn rejects_invalid_arguments_with_a_remedy() {
         &["bench", "--moved", "5"],
         &["bench", "--apart"],
         &["bench", "--drop"],
+        &["bench", "--remove"],
+        &["bench", "--motion", "edit", "--drop", "--restyle"],
         &["bench", "--motion", "edit", "--moved", "0"],
         &["bench", "--methods", "nothing"],
         &["bench", "--frames", "0"],

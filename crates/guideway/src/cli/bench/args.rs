@@ -56,11 +56,17 @@ pub(crate) struct Args {
     pub(super) moved: Option<f64>,
     /// Move the paths of `--motion edit` by an edit per frame, as at the end of a drag, not by the
     /// map of a gesture
-    #[arg(long, conflicts_with = "apart")]
+    #[arg(long, group = "way")]
     pub(super) drop: bool,
     /// Move each path of `--motion edit` by its own new curve
-    #[arg(long)]
+    #[arg(long, group = "way")]
     pub(super) apart: bool,
+    /// Remove the paths of `--motion edit` instead of moving them, and undo that in the next frame
+    #[arg(long, group = "way")]
+    pub(super) remove: bool,
+    /// Give the paths of `--motion edit` another color and width, and undo that in the next frame
+    #[arg(long, group = "way")]
+    pub(super) restyle: bool,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::frame_size)]
     pub(super) size: FrameSize,

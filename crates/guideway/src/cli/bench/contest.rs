@@ -46,10 +46,10 @@ impl Args {
                 "Omit --paths, or measure a dataset, such as `guideway bench d1 --paths 100000`",
             ));
         }
-        let has_way = self.apart || self.drop;
+        let has_way = self.apart || self.drop || self.remove || self.restyle;
         if self.motion != MotionKind::Edit && (self.moved.is_some() || has_way) {
             return Err(usage_error(
-                "--moved, --drop and --apart apply only with --motion edit",
+                "--moved, --drop, --apart, --remove and --restyle apply only with --motion edit",
                 "Add it, such as `--motion edit --moved 10`",
             ));
         }
@@ -80,11 +80,7 @@ impl Args {
             },
             edit: Moves {
                 share: self.moved.unwrap_or(DEFAULT_MOVED_PERCENT) / 100.0,
-                way: match (self.drop, self.apart) {
-                    (_, true) => Way::Apart,
-                    (true, false) => Way::Drop,
-                    (false, false) => Way::Gesture,
-                },
+                way: self.way(),
             },
             style: Style {
                 line_rule: match (self.width_px, self.line_rule) {
@@ -109,6 +105,17 @@ impl Args {
             warmup: self.warmup,
             frames: self.frames,
         })
+    }
+
+    fn way(&self) -> Way {
+        let ways = [
+            (self.drop, Way::Drop),
+            (self.apart, Way::Apart),
+            (self.remove, Way::Remove),
+            (self.restyle, Way::Restyle),
+        ];
+        let chosen = ways.into_iter().find(|(is_chosen, _)| *is_chosen);
+        chosen.map_or(Way::Gesture, |(_, way)| way)
     }
 
     /// The requested methods, or all that run here except the slow reference.

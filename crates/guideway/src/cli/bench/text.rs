@@ -6,13 +6,14 @@ use guideway_bench::{
 
 use crate::cli::text;
 
-const HEAD: [&str; 8] = [
+const HEAD: [&str; 9] = [
     "frame",
     "5 to 95 %",
     "ratio",
     "first",
     "prepare",
     "wall",
+    "on device",
     "memory",
     "tests/px",
 ];
@@ -58,11 +59,13 @@ fn heading(comparison: &Comparison) -> String {
         Motion::Edit => {
             let moved = comparison.edit_paths.unwrap_or(0) as u64;
             let ways = match comparison.edit_way {
-                Some(Way::Apart) => ", each its own way",
-                Some(Way::Drop) => " by one edit",
-                Some(Way::Gesture) | None => "",
+                Some(Way::Apart) => "moved each frame, each its own way",
+                Some(Way::Drop) => "moved each frame by one edit",
+                Some(Way::Gesture) | None => "moved each frame",
+                Some(Way::Remove) => "removed by each frame or restored",
+                Some(Way::Restyle) => "restyled by each frame",
             };
-            format!("{} moved each frame{ways}", text::counted(moved, "path"))
+            format!("{} {ways}", text::counted(moved, "path"))
         }
     };
     let style = match comparison.style_preset {
@@ -106,6 +109,8 @@ fn cells(contestant: &Contestant) -> Vec<String> {
         text::time(m.first_frame.ms),
         text::time(m.prepare.ms),
         text::time(m.wall_ms.median),
+        m.device_wall_ms
+            .map_or_else(|| "-".to_owned(), |wall| text::time(wall.median)),
         text::bytes(m.peak_bytes),
         m.work
             .tests_a_pixel
