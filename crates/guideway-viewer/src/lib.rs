@@ -56,6 +56,7 @@ mod units;
 mod window;
 mod window_icon;
 
+pub use eframe::wgpu;
 pub use launch_options::LaunchOptions;
 pub use measure::{Movement, measure};
 pub use services::{

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use eframe::CreationContext;
 use eframe::egui::epaint::text::{FallbackRequest, FontData, FontInsert};
 use eframe::egui::{Context, RawInput, RequestRepaintInfo, Ui};
+use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup};
 use guideway_compose::{SystemFont, system_font};
 use guideway_layout::UserError;
 
@@ -22,7 +23,7 @@ use crate::window_icon::window_icon;
 pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), UserError> {
     let window = Arc::<OnceLock<Context>>::default();
     // The files load while the window opens.
-    let mut app = App::launch(repaint_handle(&window), services, launch);
+    let mut app = App::launch(repaint_handle(&window), Arc::clone(&services), launch);
     app.first_picture_wait = FIRST_PICTURE_WAIT;
     let options = eframe::NativeOptions {
         viewport: app
@@ -33,6 +34,7 @@ pub fn run(services: Arc<dyn AppServices>, launch: LaunchOptions) -> Result<(), 
             .with_drag_and_drop(true),
         // The window has no gradients, and dithering slows down software renderers.
         dithering: false,
+        wgpu_options: wgpu_options(services),
         ..eframe::NativeOptions::default()
     };
     let create: eframe::AppCreator<'_> = Box::new(move |creation| {
@@ -100,13 +102,28 @@ fn repaint_handle(window: &Arc<OnceLock<Context>>) -> RepaintHandle {
     })
 }
 
-/// Notes the graphics adapter, and spares one that is a processor.
+/// Opens a device on which render methods can draw too.
+fn wgpu_options(services: Arc<dyn AppServices>) -> WgpuConfiguration {
+    let mut options = WgpuConfiguration::default();
+    if let WgpuSetup::CreateNew(setup) = &mut options.wgpu_setup {
+        let plain = Arc::clone(&setup.device_descriptor);
+        setup.device_descriptor = Arc::new(move |adapter| {
+            let shared = services.device_descriptor(adapter);
+            shared.unwrap_or_else(|| plain(adapter))
+        });
+    }
+    options
+}
+
+/// Shares the device with render methods, notes the graphics adapter, and spares one that is a
+/// processor.
 fn adapt_to_adapter(app: &mut App, creation: &CreationContext<'_>) {
     let Some(state) = &creation.wgpu_render_state else {
         return;
     };
     let info = state.adapter.get_info();
     app.adapter = format!("{} ({})", info.name, info.backend);
+    app.share_device(state);
     if info.device_type == eframe::wgpu::DeviceType::Cpu {
         // Each blink of the cursor and each step of a fade would draw the whole window.
         creation.egui_ctx.all_styles_mut(|style| {

@@ -14,6 +14,8 @@ use guideway::envelope::EnvelopeSource;
 use guideway::formats::{Progress, Target, read_file};
 use guideway::layout::{Layout, UserError, shown_path};
 use guideway::scene::{Frame, Method, View, elapsed_ms};
+#[cfg(feature = "gpu")]
+use guideway_viewer::wgpu;
 use guideway_viewer::{
     AppServices, FileFormat, FileQuestion, Job, LoadStage, LostPart, MethodChoice,
     PendingFileAnswer, PictureRequest, Saved,
@@ -152,6 +154,23 @@ impl AppServices for FileServices {
 
     fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError> {
         Ok(guideway::method(name)?)
+    }
+
+    #[cfg(feature = "gpu")]
+    fn device_descriptor(
+        &self,
+        adapter: &wgpu::Adapter,
+    ) -> Option<wgpu::DeviceDescriptor<'static>> {
+        Some(guideway::Gpu::descriptor(adapter))
+    }
+
+    #[cfg(feature = "gpu")]
+    fn share_device(&self, adapter: &wgpu::Adapter, device: &wgpu::Device, queue: &wgpu::Queue) {
+        guideway::share_device(guideway::Gpu::shared(
+            adapter,
+            device.clone(),
+            queue.clone(),
+        ));
     }
 
     fn on_stage(&self, stage: LoadStage, file: &Path) {

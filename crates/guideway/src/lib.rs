@@ -191,6 +191,8 @@ pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
 #[cfg(feature = "arrow")]
 pub use guideway_formats::arrow;
+#[cfg(feature = "gpu")]
+pub use guideway_gpu::Gpu;
 pub use guideway_layout as layout;
 pub use guideway_network as network;
 pub use guideway_scene as scene;
@@ -201,6 +203,8 @@ pub use guideway_compose::{save_png, save_png_by, write_png_by};
 pub use guideway_formats::{
     NewFile, SaveError, remove_unfinished, replace_file, try_remove_unfinished,
 };
+#[cfg(feature = "gpu")]
+pub use methods::share_device;
 pub use methods::{
     AUTO, Available, MethodError, MethodOption, graphics_adapters, live_method, method,
     method_names, methods,

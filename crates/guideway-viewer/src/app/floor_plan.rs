@@ -32,13 +32,17 @@ impl App {
             offset_m: Point::default(),
         };
         self.plan_editor.is_open = is_image;
-        let LayerContext { services, repaint } = &self.context;
+        let LayerContext {
+            services, repaint, ..
+        } = &self.context;
         self.floor_plan.set(&placement.text(), services, repaint);
     }
 
     /// Shows the floor plan at another place.
     pub(super) fn place_floor_plan(&mut self, placement: &PlanPlacement) {
-        let LayerContext { services, repaint } = &self.context;
+        let LayerContext {
+            services, repaint, ..
+        } = &self.context;
         self.floor_plan.place(placement, services, repaint);
     }
 

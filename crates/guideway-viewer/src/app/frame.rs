@@ -232,7 +232,9 @@ impl App {
         for layer in layers.filter(|layer| layer.is_visible) {
             layer.picture.request(RenderRequest { view, style });
         }
-        let LayerContext { services, repaint } = &self.context;
+        let LayerContext {
+            services, repaint, ..
+        } = &self.context;
         let file_index = self.files.active_index();
         let document = self.files.document();
         let active = document.map(|document| ActiveDocument {
@@ -247,7 +249,9 @@ impl App {
     fn poll(&mut self, ctx: &Context) {
         self.poll_layers(ctx);
         self.wait_for_first_picture(ctx);
-        let LayerContext { services, repaint } = &self.context;
+        let LayerContext {
+            services, repaint, ..
+        } = &self.context;
         let has_pictures = self.files.layers().iter().all(Layer::has_picture_or_error);
         if self.methods.poll(has_pictures, services, repaint) {
             self.files.set_method(self.methods.name());

@@ -28,7 +28,9 @@ impl App {
         }
         // A project may have a floor plan of its own.
         if !options.floor_plan.is_empty() {
-            let LayerContext { services, repaint } = &app.context;
+            let LayerContext {
+                services, repaint, ..
+            } = &app.context;
             app.floor_plan.set(&options.floor_plan, services, repaint);
         }
         app

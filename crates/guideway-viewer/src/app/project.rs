@@ -197,7 +197,9 @@ impl App {
             true => file.into_owned(),
             false => format!("{file}@{}", plan.place),
         };
-        let LayerContext { services, repaint } = &self.context;
+        let LayerContext {
+            services, repaint, ..
+        } = &self.context;
         self.floor_plan.set(&text, services, repaint);
         self.floor_plan.is_visible = plan.is_shown;
         self.floor_plan.is_locked = plan.is_locked;

@@ -1,6 +1,7 @@
 //! Routes actions, commands and pointer events to the part that owns the state.
 
 use eframe::egui::{Context, Popup};
+use eframe::egui_wgpu::RenderState;
 use guideway_document::{Document, Element, Elements, SelectMode};
 use guideway_spline::{Bounds, Point};
 
@@ -10,8 +11,9 @@ use crate::action::{Action, GroupRequest};
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
-use crate::files::Layer;
+use crate::files::{Layer, LayerContext};
 use crate::panels::{BottomView, SideTab};
+use crate::render_queue::FALLBACK_METHOD;
 use crate::tools::{PointerEvent, Tool};
 
 /// Distance of one key press of a pan command, in pixels.
@@ -331,6 +333,18 @@ impl App {
         let document = layer.slot.document();
         let result = layer.tasks.select_where(document, query, mode, repaint);
         self.find.query_error = result.err().map(|error| error.to_string());
+    }
+
+    /// Lets render methods draw on the device of the window. One that started before starts again.
+    pub(crate) fn share_device(&mut self, state: &RenderState) {
+        let LayerContext {
+            services, device, ..
+        } = &self.context;
+        services.share_device(&state.adapter, &state.device, &state.queue);
+        device.set(state.clone());
+        if self.methods.name() != FALLBACK_METHOD {
+            self.files.set_method(self.methods.name());
+        }
     }
 
     /// Renders with another method; `None` selects the best.

@@ -2,7 +2,7 @@
 //! layouts, marks, gesture, scale bar, legend, messages.
 
 use eframe::egui::{
-    Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureHandle, Vec2, pos2,
+    Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureId, Vec2, pos2,
 };
 use guideway_document::decorations::{
     Corner, DecorationStyle, MAX_MARKED, handles, legend, outline, scale_bar,
@@ -77,13 +77,15 @@ impl CanvasPainter<'_> {
         painter.rect_filled(self.screen.rect, 0.0, background);
         self.paint_floor_plan(painter);
         list(self.settings.grid(&self.view, px_per_point));
-        self.paint_picture(painter, self.swept_areas.shown(), 1.0);
+        let swept_areas = self.swept_areas.shown();
+        let swept_areas = swept_areas.map(|(texture, of)| (texture.id(), of));
+        self.paint_picture(painter, swept_areas, 1.0);
         if let Some((route, _)) = self.route {
             self.tool_painter(painter).route_area(route, background);
         }
         for layer in self.files.visible() {
             let shown = layer.picture.shown().filter(|_| layer.look.has_paths);
-            let shown = shown.map(|shown| (&shown.texture, &shown.view));
+            let shown = shown.map(|shown| (shown.texture_id(), &shown.view));
             self.paint_picture(painter, shown, layer.look.opacity);
         }
         self.paint_others(painter, &style);
@@ -143,17 +145,12 @@ impl CanvasPainter<'_> {
 
     /// Paints the last picture where it belongs in the present view, until the next one is
     /// complete.
-    fn paint_picture(
-        &self,
-        painter: &Painter,
-        picture: Option<(&TextureHandle, &View)>,
-        opacity: f32,
-    ) {
+    fn paint_picture(&self, painter: &Painter, picture: Option<(TextureId, &View)>, opacity: f32) {
         if let Some((texture, of)) = picture {
             let rect = self.screen.picture_rect(of, &self.view);
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             let tint = Color32::WHITE.gamma_multiply(opacity);
-            painter.image(texture.id(), rect, whole, tint);
+            painter.image(texture, rect, whole, tint);
         }
     }
 

@@ -67,7 +67,12 @@ impl Layer {
         context: &LayerContext,
     ) -> Self {
         let mut layer = Self {
-            picture: LayerPicture::start(&context.services, method, &context.repaint),
+            picture: LayerPicture::start(
+                &context.services,
+                method,
+                &context.repaint,
+                &context.device,
+            ),
             path,
             is_visible: true,
             look: LayerLook::default(),
@@ -193,7 +198,9 @@ impl Layer {
         context: &LayerContext,
     ) {
         self.tasks.set_options(options.clone());
-        let LayerContext { services, repaint } = context.clone();
+        let LayerContext {
+            services, repaint, ..
+        } = context.clone();
         let source = match &self.new {
             None => Source::File(self.path.clone()),
             Some(layout) => {

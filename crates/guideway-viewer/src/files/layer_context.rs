@@ -3,11 +3,13 @@
 use std::sync::Arc;
 
 use crate::background::RepaintHandle;
+use crate::render_queue::WindowDevice;
 use crate::services::AppServices;
 
-/// Files, render methods and the handle that wakes the window.
+/// Files, render methods, the handle that wakes the window, and its graphics device.
 #[derive(Clone)]
 pub(crate) struct LayerContext {
     pub(crate) services: Arc<dyn AppServices>,
     pub(crate) repaint: RepaintHandle,
+    pub(crate) device: WindowDevice,
 }

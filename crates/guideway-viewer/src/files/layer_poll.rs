@@ -58,7 +58,9 @@ impl Layer {
         events: &mut Vec<LayerEvent>,
     ) {
         let name = self.name();
-        let LayerContext { services, repaint } = context;
+        let LayerContext {
+            services, repaint, ..
+        } = context;
         for event in self.picture.poll(ctx, &name, services, repaint) {
             match event {
                 PictureEvent::Shown { is_first } => {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
 
-use eframe::egui::{Context, TextureHandle, TextureOptions};
+use eframe::egui::{Context, TextureHandle, TextureId, TextureOptions};
 use guideway_scene::{Gesture, Report, Scene, View};
 use guideway_spline::Affine;
 
@@ -11,7 +11,8 @@ use super::method_selection::FALLBACK_METHOD;
 use super::queue::RenderQueue;
 use super::renderer::Renderer;
 use super::request::RenderRequest;
-use super::worker::{Picture, RenderEvent};
+use super::window_device::{DeviceTexture, WindowDevice};
+use super::worker::{Picture, Pixels, RenderEvent};
 use crate::background::RepaintHandle;
 use crate::language::say;
 use crate::services::AppServices;
@@ -19,6 +20,7 @@ use crate::services::AppServices;
 /// Renders one file and holds its last picture.
 pub(crate) struct LayerPicture {
     renderer: Renderer,
+    device: WindowDevice,
     shown: Option<ShownPicture>,
     requested: Option<RenderRequest>,
     gesture: Option<Gesture>,
@@ -26,13 +28,29 @@ pub(crate) struct LayerPicture {
 
 /// A picture as a texture.
 pub(crate) struct ShownPicture {
-    pub(crate) texture: TextureHandle,
+    texture: ShownTexture,
     /// Number of this picture among those of the file, from 1.
     pub(crate) number: u64,
     pub(crate) view: View,
     pub(crate) report: Report,
     /// Milliseconds from the start of the request to the finished picture.
     pub(crate) wall_ms: f64,
+}
+
+/// Pixels that the window uploaded, or a texture that the method drew on the window's device.
+enum ShownTexture {
+    Uploaded(TextureHandle),
+    OnDevice(DeviceTexture),
+}
+
+impl ShownPicture {
+    /// Name of the texture for the painter.
+    pub(crate) fn texture_id(&self) -> TextureId {
+        match &self.texture {
+            ShownTexture::Uploaded(texture) => texture.id(),
+            ShownTexture::OnDevice(texture) => texture.id(),
+        }
+    }
 }
 
 /// A change of the picture that concerns the open file.
@@ -53,9 +71,12 @@ impl LayerPicture {
         services: &Arc<dyn AppServices>,
         method: &str,
         repaint: &RepaintHandle,
+        device: &WindowDevice,
     ) -> Self {
+        let (services, repaint) = (Arc::clone(services), Arc::clone(repaint));
         Self {
-            renderer: Renderer::start(Arc::clone(services), method, Arc::clone(repaint)),
+            renderer: Renderer::start(services, method, repaint, device.clone()),
+            device: device.clone(),
             shown: None,
             requested: None,
             gesture: None,
@@ -146,7 +167,9 @@ impl LayerPicture {
                         other = FALLBACK_METHOD
                     )));
                     let (services, repaint) = (Arc::clone(services), Arc::clone(repaint));
-                    self.renderer.restart(services, FALLBACK_METHOD, repaint);
+                    let device = self.device.clone();
+                    self.renderer
+                        .restart(services, FALLBACK_METHOD, repaint, device);
                     events.push(PictureEvent::NeedsScene);
                     return events;
                 }
@@ -157,12 +180,19 @@ impl LayerPicture {
     fn show(&mut self, ctx: &Context, name: &str, picture: Picture) {
         let options = TextureOptions::LINEAR;
         let number = self.shown.as_ref().map_or(0, |shown| shown.number) + 1;
-        let texture = match self.shown.take() {
-            Some(mut shown) => {
-                shown.texture.set(picture.image, options);
-                shown.texture
+        let earlier = self.shown.take().map(|shown| shown.texture);
+        let texture = match (picture.pixels, earlier) {
+            (Pixels::InMemory(image), Some(ShownTexture::Uploaded(mut texture))) => {
+                texture.set(image, options);
+                ShownTexture::Uploaded(texture)
             }
-            None => ctx.load_texture(name, picture.image, options),
+            (Pixels::InMemory(image), _) => {
+                ShownTexture::Uploaded(ctx.load_texture(name, image, options))
+            }
+            (Pixels::OnDevice(picture), _) => match self.device.register(picture) {
+                Some(texture) => ShownTexture::OnDevice(texture),
+                None => return,
+            },
         };
         self.shown = Some(ShownPicture {
             texture,

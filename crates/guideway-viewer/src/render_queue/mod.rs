@@ -6,6 +6,8 @@
 //! | update | scene, edit, method | state of the worker | `queue`, `worker` |
 //! | render | request | [`Picture`] or another [`RenderEvent`] | `worker` |
 //! | display | picture | texture and report | `layer_picture`, `background_picture` |
+//!
+//! A method that draws on the device of the window leaves its pictures there (`window_device`).
 
 mod background_picture;
 mod layer_picture;
@@ -13,6 +15,7 @@ mod method_selection;
 mod queue;
 mod renderer;
 mod request;
+mod window_device;
 mod worker;
 
 pub(crate) use background_picture::{BackgroundPicture, color_image};
@@ -21,5 +24,6 @@ pub(crate) use method_selection::{FALLBACK_METHOD, MethodSelection};
 #[cfg(test)]
 pub(crate) use renderer::Renderer;
 pub(crate) use request::RenderRequest;
+pub(crate) use window_device::WindowDevice;
 #[cfg(test)]
-pub(crate) use worker::RenderEvent;
+pub(crate) use worker::{Pixels, RenderEvent};

@@ -8,6 +8,7 @@ use guideway_scene::{Gesture, Scene};
 
 use super::queue::{RenderQueue, SceneUpdate};
 use super::request::RenderRequest;
+use super::window_device::WindowDevice;
 use super::worker::{RenderEvent, spawn};
 use crate::background::RepaintHandle;
 use crate::services::AppServices;
@@ -25,9 +26,10 @@ impl Renderer {
         services: Arc<dyn AppServices>,
         method: &str,
         repaint: RepaintHandle,
+        device: WindowDevice,
     ) -> Self {
         let queue = RenderQueue::default();
-        let (events, thread) = spawn(&queue, services, method, repaint);
+        let (events, thread) = spawn(&queue, services, method, repaint, device);
         Self {
             queue,
             events,
@@ -41,9 +43,10 @@ impl Renderer {
         services: Arc<dyn AppServices>,
         method: &str,
         repaint: RepaintHandle,
+        device: WindowDevice,
     ) {
         self.queue.reset();
-        let (events, thread) = spawn(&self.queue, services, method, repaint);
+        let (events, thread) = spawn(&self.queue, services, method, repaint, device);
         (self.events, self.thread) = (events, thread);
     }
 

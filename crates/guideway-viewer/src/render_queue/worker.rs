@@ -8,13 +8,15 @@ use std::time::Instant;
 use eframe::egui::ColorImage;
 use guideway_layout::UserError;
 use guideway_scene::{
-    Budget, Cancel, EditOutcome, Frame, Method, Prepared, RenderError, Report, Scene, elapsed_ms,
+    Budget, Cancel, DevicePicture, EditOutcome, Frame, Method, Prepared, RenderError, Report,
+    Scene, elapsed_ms,
 };
 
 use super::background_picture::color_image;
 use super::method_selection::FALLBACK_METHOD;
 use super::queue::{RenderJob, RenderQueue, SceneUpdate};
 use super::request::RenderRequest;
+use super::window_device::WindowDevice;
 use crate::background::RepaintHandle;
 use crate::language::{say, start_thread};
 use crate::services::AppServices;
@@ -33,10 +35,17 @@ pub(crate) enum RenderEvent {
 /// A finished picture.
 pub(crate) struct Picture {
     pub(crate) request: RenderRequest,
-    pub(crate) image: ColorImage,
+    pub(crate) pixels: Pixels,
     pub(crate) report: Report,
     /// Milliseconds from the start of the request to the finished picture.
     pub(crate) wall_ms: f64,
+}
+
+/// The pixels of a picture.
+pub(crate) enum Pixels {
+    InMemory(ColorImage),
+    /// A texture of the window's device.
+    OnDevice(DevicePicture),
 }
 
 /// Starts a render thread without a scene.
@@ -45,6 +54,7 @@ pub(super) fn spawn(
     services: Arc<dyn AppServices>,
     method: &str,
     repaint: RepaintHandle,
+    device: WindowDevice,
 ) -> (Receiver<RenderEvent>, Option<JoinHandle<()>>) {
     let (sender, events) = mpsc::channel();
     let mut worker = Worker {
@@ -52,6 +62,7 @@ pub(super) fn spawn(
         queue: queue.clone(),
         events: sender,
         repaint,
+        device,
         method_name: method.to_owned(),
         method: None,
         scene: None,
@@ -71,6 +82,7 @@ struct Worker {
     queue: RenderQueue,
     events: Sender<RenderEvent>,
     repaint: RepaintHandle,
+    device: WindowDevice,
     method_name: String,
     method: Option<Box<dyn Method>>,
     /// The scene until it is prepared. Afterwards the method owns it and edits it without a copy.
@@ -196,14 +208,25 @@ impl Worker {
                 none.insert(method.prepare(scene, &Budget::default())?)
             }
         };
-        let size = request.view.size();
-        let frame = self.frame.get_or_insert_with(|| Frame::new(size));
+        let (view, style) = (&request.view, &request.style);
         self.last_picture = None;
-        let report = prepared.render(&request.view, &request.style, cancel, frame)?;
+        let on_device = if self.device.is_of(&**prepared) {
+            prepared.render_on_device(view, style, cancel)?
+        } else {
+            None
+        };
+        let (pixels, report) = match on_device {
+            Some((picture, report)) => (Pixels::OnDevice(picture), report),
+            None => {
+                let frame = self.frame.get_or_insert_with(|| Frame::new(view.size()));
+                let report = prepared.render(view, style, cancel, frame)?;
+                (Pixels::InMemory(color_image(frame)), report)
+            }
+        };
         self.last_picture = Some(*request);
         Ok(Picture {
             request: *request,
-            image: color_image(frame),
+            pixels,
             report,
             wall_ms: elapsed_ms(started),
         })

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use eframe::wgpu;
 use guideway_compose::{FloorPlan, VectorFormat};
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, UserError};
@@ -144,6 +145,21 @@ pub trait AppServices: Send + Sync {
     /// # Errors
     /// When the method is unknown or does not run on this computer.
     fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError>;
+
+    /// The limits and features that a device of this adapter needs, so that render methods can
+    /// draw on the device of the window; `None` if none can.
+    fn device_descriptor(
+        &self,
+        adapter: &wgpu::Adapter,
+    ) -> Option<wgpu::DeviceDescriptor<'static>> {
+        let _ = adapter;
+        None
+    }
+
+    /// Lets the render methods that start from now on draw on the device of the window.
+    fn share_device(&self, adapter: &wgpu::Adapter, device: &wgpu::Device, queue: &wgpu::Queue) {
+        let _ = (adapter, device, queue);
+    }
 
     /// Called once when a file reaches a stage, for timing output.
     fn on_stage(&self, stage: LoadStage, file: &Path) {

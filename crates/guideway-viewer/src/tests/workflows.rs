@@ -12,7 +12,7 @@ use guideway_spline::Point;
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::panels::SideTab;
-use crate::render_queue::{RenderEvent, RenderRequest, Renderer};
+use crate::render_queue::{Pixels, RenderEvent, RenderRequest, Renderer, WindowDevice};
 use crate::tools::Tool;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -49,7 +49,7 @@ fn picture_over_the_background_equals_the_render_command() {
     };
     let scene = Arc::new(scene);
     let services = TestServices::with([]);
-    let renderer = Renderer::start(services, "cpu", Arc::new(|| {}));
+    let renderer = Renderer::start(services, "cpu", Arc::new(|| {}), WindowDevice::default());
     renderer.set_scene(Arc::clone(&scene));
     renderer.request(request);
     let picture = (0..5_000).find_map(|_| {
@@ -60,6 +60,9 @@ fn picture_over_the_background_equals_the_render_command() {
         }
     });
     let picture = picture.expect("a picture arrives");
+    let Pixels::InMemory(image) = picture.pixels else {
+        panic!("no window shares its device");
+    };
     // Composited over white it equals what `guideway render` draws on white.
     let mut frame = Frame::new(size);
     let mut prepared = Cpu.prepare(scene, &Budget::default()).unwrap();
@@ -70,7 +73,7 @@ fn picture_over_the_background_equals_the_render_command() {
     prepared
         .render(&request.view, &style, &Cancel::default(), &mut frame)
         .unwrap();
-    for (over, on_white) in picture.image.pixels.iter().zip(frame.pixels()) {
+    for (over, on_white) in image.pixels.iter().zip(frame.pixels()) {
         let [r, g, b, a] = over.to_array();
         for (over, on_white) in [r, g, b].into_iter().zip(on_white) {
             let seen = i32::from(over) + 255 - i32::from(a);
@@ -80,7 +83,7 @@ fn picture_over_the_background_equals_the_render_command() {
             );
         }
     }
-    let is_drawn = picture.image.pixels.iter().any(|pixel| pixel.a() > 128);
+    let is_drawn = image.pixels.iter().any(|pixel| pixel.a() > 128);
     assert!(is_drawn);
 }
 

@@ -1,6 +1,6 @@
 //! The methods by compute shaders: `gpu`, `grid`, `tree` and `quadtree`.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridOptions};
@@ -106,7 +106,7 @@ const TREE_OPTIONS: &[MethodOption] = &[
 
 /// Returns `true` if the graphics device is hardware, not a software implementation.
 pub(super) fn is_in_hardware() -> bool {
-    DEVICE.as_ref().is_ok_and(|device| !device.is_software())
+    device().is_ok_and(|device| !device.is_software())
 }
 
 /// The graphics adapters of this computer with their drivers, hardware first.
@@ -114,8 +114,14 @@ pub(super) fn adapters() -> Option<Vec<String>> {
     Some(guideway_gpu::adapters())
 }
 
-/// Opened once for all methods and options.
-static DEVICE: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
+/// The device of all methods and options, or why there is none; `None` until one is needed.
+static DEVICE: Mutex<Option<Result<Arc<Gpu>, DeviceError>>> = Mutex::new(None);
+
+/// Makes methods that start from now on draw on a device that the caller opened, with the limits
+/// and features of [`Gpu::descriptor`], so that their pictures can stay on it.
+pub fn share_device(gpu: Arc<Gpu>) {
+    *DEVICE.lock().unwrap_or_else(PoisonError::into_inner) = Some(Ok(gpu));
+}
 
 fn start(options: &str) -> Result<Box<dyn Method>, StartError> {
     let options =
@@ -131,9 +137,17 @@ fn start_tree(structure: Structure, options: &str) -> Result<Box<dyn Method>, St
     Ok(Box::new(trees))
 }
 
-/// The device, or why there is none.
+/// The device, or why there is none. A lost device is opened again.
 fn device() -> Result<Arc<Gpu>, StartError> {
-    DEVICE.as_ref().map(Arc::clone).map_err(unavailable)
+    let mut opened = DEVICE.lock().unwrap_or_else(PoisonError::into_inner);
+    if opened
+        .as_ref()
+        .is_some_and(|known| matches!(known, Ok(gpu) if gpu.is_lost()))
+    {
+        *opened = None;
+    }
+    let opened = opened.get_or_insert_with(Gpu::new).as_ref();
+    opened.map(Arc::clone).map_err(unavailable)
 }
 
 fn unavailable(error: impl std::fmt::Display) -> StartError {

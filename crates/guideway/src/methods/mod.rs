@@ -17,6 +17,8 @@ mod registry;
 mod tessellation;
 
 pub use entry::MethodOption;
+#[cfg(feature = "gpu")]
+pub use gpu::share_device;
 pub use registry::{
     AUTO, Available, MethodError, graphics_adapters, live_method, method, method_names, methods,
 };
