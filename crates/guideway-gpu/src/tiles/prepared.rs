@@ -108,12 +108,20 @@ impl PreparedTiles {
 
     /// Marks what the gesture shows in the caches, at its present place.
     fn mark_gesture(&mut self) {
-        let mut dirty = DirtyClusters::default();
-        if let (Some(gesture), Some(buffers)) = (&self.scene.gesture, &self.scene.buffers) {
+        let (Some(gesture), Some(buffers)) = (&self.scene.gesture, &self.scene.buffers) else {
+            return;
+        };
+        self.target.mark_area(gesture.shown_area());
+        // Few clusters are worth a list, and many drop the cached lines at once.
+        if let Some(cached) = &mut self.target.cached_lines {
+            let all = buffers.cluster_list.len();
+            let mut dirty = DirtyClusters::default();
             gesture
                 .mapped_clusters()
                 .for_each(|cluster| dirty.add(cluster));
-            self.target.mark_dirty(&dirty, &buffers.cluster_list);
+            if !cached.mark_dirty(&dirty, all) {
+                self.target.cached_lines = None;
+            }
         }
     }
 

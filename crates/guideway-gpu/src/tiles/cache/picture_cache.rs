@@ -25,8 +25,29 @@ pub(crate) struct CachedPicture {
     style: Style,
     /// Scroll from `drawn` to `shown`.
     scrolled_px: [i32; 2],
-    /// Bounds of edited clusters, and the greatest width of their paths.
-    dirty: Option<(Bounds<f64>, Option<f32>)>,
+    dirty: DirtyArea,
+}
+
+/// Bounds of changed clusters, and the greatest width of their paths; `None` without a cluster.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub(crate) struct DirtyArea(Option<(Bounds<f64>, Option<f32>)>);
+
+impl DirtyArea {
+    /// Adds a cluster.
+    pub(crate) fn add(&mut self, cluster: &Cluster) {
+        self.join(Self(Some((cluster.bounds(), cluster.width_m()))));
+    }
+
+    /// Adds another area.
+    pub(crate) fn join(&mut self, other: Self) {
+        self.0 = match (self.0, other.0) {
+            (Some((all, widest_m)), Some((bounds, width_m))) => {
+                let widest_m = widest_m.into_iter().chain(width_m).reduce(f32::max);
+                Some((all.union(bounds), widest_m))
+            }
+            (all, other) => all.or(other),
+        };
+    }
 }
 
 /// The steps from a cached picture to the next.
@@ -46,22 +67,13 @@ impl CachedPicture {
             shown: *view,
             style: *style,
             scrolled_px: [0, 0],
-            dirty: None,
+            dirty: DirtyArea::default(),
         }
     }
 
-    /// Marks edited clusters. Their boxes contain their old and their new points.
-    pub(crate) fn mark_dirty<'a>(&mut self, clusters: impl Iterator<Item = &'a Cluster>) {
-        for cluster in clusters {
-            let (bounds, width_m) = (cluster.bounds(), cluster.width_m());
-            self.dirty = Some(match self.dirty {
-                Some((all, widest_m)) => {
-                    let widest_m = widest_m.into_iter().chain(width_m).reduce(f32::max);
-                    (all.union(bounds), widest_m)
-                }
-                None => (bounds, width_m),
-            });
-        }
+    /// Marks what clusters showed, and what they show now.
+    pub(crate) fn mark_dirty(&mut self, area: DirtyArea) {
+        self.dirty.join(area);
     }
 
     /// Plans the reuse of the picture for another view. `None` if nothing can be reused.
@@ -78,6 +90,7 @@ impl CachedPicture {
         let all_tiles = [tiles.columns, tiles.rows];
         let dirty = self
             .dirty
+            .0
             .map(|(bounds, widest_m)| frame.touched_tiles(bounds, widest_m, all_tiles));
         let max_dirty = tiles.columns as usize * tiles.rows as usize / MAX_DIRTY_PART;
         if dirty.as_ref().is_some_and(|w| w.tiles() > max_dirty) {
@@ -106,7 +119,7 @@ impl CachedPicture {
             picture: Self {
                 shown: *view,
                 scrolled_px,
-                dirty: None,
+                dirty: DirtyArea::default(),
                 ..*self
             },
             scroll,

@@ -14,7 +14,7 @@ use super::tile_buffers::TileBuffers;
 use super::window::Window;
 use crate::device::{DeviceBuffer, Gpu};
 use crate::tiles::cache::line_cache::{CachedLines, max_dirty};
-use crate::tiles::cache::picture_cache::CachedPicture;
+use crate::tiles::cache::picture_cache::{CachedPicture, DirtyArea};
 use crate::tiles::cache::scroll::Scroller;
 use crate::tiles::constants::{MAX_SPLIT_PARTS, MAX_SPLIT_TILES, SAMPLE_ROWS, Samples, TILE_PX};
 use crate::tiles::device_context::{DeviceContext, device_error};
@@ -226,11 +226,20 @@ impl TargetState {
 
     /// Marks clusters with changed curves in all caches.
     pub(crate) fn mark_dirty(&mut self, dirty: &DirtyClusters, clusters: &[Cluster]) {
-        if let Some(picture) = &mut self.picture {
-            picture.mark_dirty(dirty.iter().map(|index| &clusters[index]));
+        let mut area = DirtyArea::default();
+        if self.picture.is_some() {
+            dirty.iter().for_each(|index| area.add(&clusters[index]));
         }
+        self.mark_area(area);
         self.cached_lines
             .take_if(|cached| !cached.mark_dirty(dirty, clusters.len()));
+    }
+
+    /// Marks an area of changed curves in the cached picture.
+    pub(crate) fn mark_area(&mut self, area: DirtyArea) {
+        if let Some(picture) = &mut self.picture {
+            picture.mark_dirty(area);
+        }
     }
 
     /// Drops the cached picture and the cached lines.

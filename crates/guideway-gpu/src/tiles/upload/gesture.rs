@@ -18,6 +18,7 @@ use super::point_buffer::ViewDistance;
 use super::scene_buffers::SceneBuffers;
 use super::shown_gesture::ShownGesture;
 use super::uploaded_scene::UploadedScene;
+use crate::tiles::cache::picture_cache::DirtyArea;
 use crate::tiles::device_context::{DeviceContext, device_error};
 use crate::tiles::layouts::Stroke;
 
@@ -120,11 +121,17 @@ pub(crate) fn begin(
     buffers.count_whole_paths(patches.dirty.iter().chain(own.clone()));
     let mapped = selection.whole.into_iter().chain(own.clone());
     let at_rest = mapped.map(|index| (index, buffers.cluster_list[index]));
+    let at_rest: Vec<_> = at_rest.collect();
+    let mut shown_area = DirtyArea::default();
+    at_rest
+        .iter()
+        .for_each(|(_, cluster)| shown_area.add(cluster));
     let shown = ShownGesture {
         paths,
         by: Affine::IDENTITY,
         is_selected,
-        at_rest: at_rest.collect(),
+        at_rest,
+        shown_area,
         hidden,
         clusters,
         strokes,
@@ -170,8 +177,10 @@ pub(crate) fn map(
     let step_before_m = facts.greatest_step_m;
     (facts.reach_m, facts.greatest_step_m) = (gesture.facts.reach_m, gesture.facts.greatest_step_m);
     facts.map = [by.x, by.y].map(|v| [v.x as f32, v.y as f32]);
+    gesture.shown_area = DirtyArea::default();
     for (index, cluster) in &gesture.at_rest {
         let mapped = cluster.mapped(by);
+        gesture.shown_area.add(&mapped);
         facts.reach_m = facts.reach_m.max(f64::from(mapped.reach_m()));
         facts.greatest_step_m = facts.greatest_step_m.max(mapped.step_m);
         buffers.cluster_list[*index] = mapped;

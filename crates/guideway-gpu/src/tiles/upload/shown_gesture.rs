@@ -6,6 +6,7 @@ use guideway_scene::{Gesture, GesturePaths};
 use guideway_spline::{Affine, Bounds};
 
 use super::facts::SceneFacts;
+use crate::tiles::cache::picture_cache::DirtyArea;
 use crate::tiles::layouts::{Cluster, Stroke};
 
 /// The gesture that the buffers of a scene show, and how they were before.
@@ -15,6 +16,8 @@ pub(crate) struct ShownGesture {
     pub(super) is_selected: Vec<bool>,
     /// Mapped clusters without the map, ascending.
     pub(super) at_rest: Vec<(usize, Cluster)>,
+    /// Where the mapped clusters are shown.
+    pub(super) shown_area: DirtyArea,
     /// Strokes that are drawn from clusters of the gesture instead.
     pub(super) hidden: Vec<(u32, Stroke)>,
     /// Number of clusters, strokes and point buffers of the scene.
@@ -38,6 +41,11 @@ impl ShownGesture {
     /// Indices of the mapped clusters.
     pub(crate) fn mapped_clusters(&self) -> impl Iterator<Item = usize> {
         self.at_rest.iter().map(|(index, _)| *index)
+    }
+
+    /// Where the mapped clusters are shown.
+    pub(crate) fn shown_area(&self) -> DirtyArea {
+        self.shown_area
     }
 
     /// A mapped cluster without the map.
