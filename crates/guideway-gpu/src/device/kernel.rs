@@ -34,6 +34,8 @@ impl Kernel {
     /// # Errors
     /// [`DeviceError::Shader`] if the shader is invalid; any error of the device.
     pub fn new(gpu: &Gpu, source: &Source, constants: &[(&str, f64)]) -> Result<Self, DeviceError> {
+        #[cfg(test)]
+        tests::record(source, constants);
         let device = &gpu.device;
         let compiled = gpu.checked(source.name, || {
             let module = module(gpu, source);
@@ -131,5 +133,65 @@ fn module(gpu: &Gpu, source: &Source) -> wgpu::ShaderModule {
     unsafe {
         gpu.device
             .create_shader_module_trusted(descriptor, unchecked)
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::sync::{Mutex, PoisonError};
+
+    use naga::{AddressSpace, Module};
+
+    use super::Source;
+
+    /// Each kernel that a test compiled: its name, and its text with the values of its overrides.
+    static COMPILED: Mutex<Vec<(&str, String)>> = Mutex::new(Vec::new());
+
+    pub(super) fn record(source: &Source, constants: &[(&str, f64)]) {
+        let lines = source.wgsl.lines().map(|line| {
+            let Some((name, kind)) = overridden(line) else {
+                return line.to_owned();
+            };
+            let found = constants.iter().find(|(constant, _)| *constant == name);
+            let value = found.map(|(_, value)| *value);
+            match (kind, value) {
+                ("bool", value) => format!("const {name}: bool = {};", value == Some(1.0)),
+                (_, Some(value)) => format!("const {name}: {kind} = {kind}({value});"),
+                (_, None) => line.replacen("override", "const", 1),
+            }
+        });
+        let text = lines.collect::<Vec<_>>().join("\n");
+        let mut all = COMPILED.lock().unwrap_or_else(PoisonError::into_inner);
+        all.push((source.name, text));
+    }
+
+    /// Name and type of an override.
+    fn overridden(line: &str) -> Option<(&str, &str)> {
+        let (name, rest) = line.strip_prefix("override ")?.split_once(": ")?;
+        Some((name, rest.split([';', ' ']).next()?))
+    }
+
+    /// Threads per workgroup, and bytes that they share.
+    fn needs(module: &Module) -> (u32, u32) {
+        let threads = module.entry_points[0].workgroup_size.iter().product();
+        let variables = module.global_variables.iter().map(|(_, variable)| variable);
+        let shared = variables.filter(|variable| variable.space == AddressSpace::WorkGroup);
+        let bytes = shared.map(|variable| module.types[variable.ty].inner.size(module.to_ctx()));
+        (threads, bytes.sum())
+    }
+
+    /// The kernels that need more than these threads or shared bytes per workgroup, with their
+    /// needs, of all that tests compiled.
+    pub(crate) fn kernels_beyond(threads: u32, bytes: u32) -> Vec<(String, u32, u32)> {
+        let all = COMPILED.lock().unwrap_or_else(PoisonError::into_inner);
+        let of_each = all.iter().map(|(name, text)| {
+            let module = naga::front::wgsl::parse_str(text)
+                .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
+            let (threads, bytes) = needs(&module);
+            ((*name).to_owned(), threads, bytes)
+        });
+        of_each
+            .filter(|(_, t, b)| *t > threads || *b > bytes)
+            .collect()
     }
 }

@@ -31,6 +31,9 @@ pub use readback::READBACK_USAGE;
 pub use runner::{Dispatch, Runner};
 
 #[cfg(test)]
+pub(crate) use kernel::tests::kernels_beyond;
+
+#[cfg(test)]
 mod tests;
 
 /// Opens an adapter as a caller does that shares its device.

@@ -16,6 +16,7 @@ fn sources() -> Vec<Source> {
         shaders::COUNT_CACHED.source(),
         shaders::BIN_CACHED.source(),
         shaders::SCROLL.source(),
+        shaders::PRESENT.source(),
         shaders::TILE_OFFSETS.source(),
         shaders::SPLIT_TILES.source(),
         shaders::BIN_LINES.source(),

@@ -14,7 +14,7 @@ use super::frame::capacity::Capacity;
 use super::frame::line_buffers::LineBuffers;
 use super::prepared::PreparedTiles;
 use super::*;
-use crate::device::Gpu;
+use crate::device::{Gpu, kernels_beyond};
 use crate::testing::device_or_skip;
 use crate::{DeviceError, GpuOptions};
 
@@ -145,6 +145,7 @@ fn device_limits_do_not_change_the_picture() {
         max_unsplit_list: Some(60),
         ..GpuOptions::default()
     });
+    let integrated = limited(GpuOptions::INTEGRATED);
     for (scene, shading) in [
         (plain(1500, 8.0), Shading::Color),
         (mixed(1500, 8.0), Shading::Color),
@@ -159,6 +160,7 @@ fn device_limits_do_not_change_the_picture() {
             ("checked", &checked, false),
             ("without subgroups", &without_subgroups, false),
             ("split", &split, false),
+            ("integrated", &integrated, false),
         ] {
             let mut prepared = prepared(device, &scene);
             for _ in 0..2 {
@@ -168,6 +170,19 @@ fn device_limits_do_not_change_the_picture() {
             }
         }
     }
+}
+
+#[test]
+fn an_integrated_chip_has_the_threads_and_the_memory_of_every_workgroup() {
+    let Some(tiles) = tiles() else { return };
+    let _ = limited(GpuOptions::INTEGRATED);
+    // These compile the kernels that wait for their first use.
+    tiles.0.counting_kernels().unwrap();
+    tiles.0.mapping_kernels().unwrap();
+    tiles.0.presenting_kernel().unwrap();
+    assert_eq!(kernels_beyond(256, 32 << 10), []);
+    let beyond = |threads, bytes| kernels_beyond(threads, bytes).len();
+    assert!(beyond(255, 32 << 10) > 0 && beyond(256, 2 << 10) > 0);
 }
 
 #[test]

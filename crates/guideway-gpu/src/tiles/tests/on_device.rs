@@ -101,10 +101,11 @@ fn a_shown_picture_is_not_drawn_over() {
     let gpu = &tiles.0.gpu;
     let scene = plain(300, 8.0);
     let mut prepared = prepared(&tiles, &scene);
-    let (shown, _) = on_device(&mut prepared, &all(), &Style::default());
-    let before = fetch(gpu, &shown);
+    let (first, _) = on_device(&mut prepared, &all(), &Style::default());
+    let before = fetch(gpu, &first);
     let (next, _) = on_device(&mut prepared, &view([20.0, 30.0], 5.0), &Style::default());
-    assert!(fetch(gpu, &shown) == before && fetch(gpu, &next) != before);
+    assert!(fetch(gpu, &first) == before && fetch(gpu, &next) != before);
+    drop(first);
     // Two textures serve any number of pictures, of which one is shown.
     let mut shown = next;
     for step in 0..5 {
