@@ -34,8 +34,6 @@ impl Kernel {
     /// # Errors
     /// [`DeviceError::Shader`] if the shader is invalid; any error of the device.
     pub fn new(gpu: &Gpu, source: &Source, constants: &[(&str, f64)]) -> Result<Self, DeviceError> {
-        #[cfg(test)]
-        tests::record(source, constants);
         let device = &gpu.device;
         let compiled = gpu.checked(source.name, || {
             let module = module(gpu, source);
@@ -58,6 +56,10 @@ impl Kernel {
                 bindings: source.bindings.len(),
             }
         });
+        #[cfg(test)]
+        if compiled.is_ok() {
+            tests::record(source, constants);
+        }
         compiled.map_err(|error| match error {
             DeviceError::Rejected { operation, message } => DeviceError::Shader {
                 name: operation,

@@ -74,6 +74,12 @@ impl Kernels {
         })
     }
 
+    /// The kernel that writes a picture to a texture.
+    pub(crate) fn presenting(gpu: &Gpu) -> Result<Kernel, DeviceError> {
+        let threads = constant("THREADS", CLUSTER_THREADS);
+        Kernel::new(gpu, &shaders::PRESENT.source(), &[threads])
+    }
+
     /// The same kernels for gestures that turn, mirror or scale paths.
     pub(crate) fn mapping(&self, gpu: &Gpu) -> Result<Self, DeviceError> {
         Ok(Self {

@@ -2,7 +2,6 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::frame::presenter::Presenter;
 use super::kernels::Kernels;
 use crate::device::{DeviceError, Gpu, Kernel};
 
@@ -73,7 +72,7 @@ impl Shared {
     pub(crate) fn presenting_kernel(&self) -> Result<Kernel, DeviceError> {
         let kernel = self
             .presenting_kernel
-            .get_or_init(|| Presenter::kernel(&self.gpu));
+            .get_or_init(|| Kernels::presenting(&self.gpu));
         kernel.clone()
     }
 }

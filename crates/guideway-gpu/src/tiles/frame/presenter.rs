@@ -10,7 +10,6 @@ use crate::device::{DeviceBuffer, DeviceError, Dispatch, Gpu, Kernel, Reservatio
 use crate::tiles::constants::CLUSTER_THREADS;
 use crate::tiles::device_context::{DeviceContext, device_error};
 use crate::tiles::layouts::PresentParams;
-use crate::tiles::shaders::PRESENT;
 
 /// Bytes per pixel of a texture.
 const PIXEL_BYTES: u64 = 4;
@@ -30,12 +29,6 @@ struct PresentTexture {
 }
 
 impl Presenter {
-    /// Compiles the kernel.
-    pub(crate) fn kernel(gpu: &Gpu) -> Result<Kernel, DeviceError> {
-        let threads = [("THREADS", f64::from(CLUSTER_THREADS))];
-        Kernel::new(gpu, &PRESENT.source(), &threads)
-    }
-
     pub(crate) fn new(kernel: Kernel, device: &mut DeviceContext) -> Result<Self, RenderError> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let bytes = size_of::<PresentParams>() as u64;

@@ -8,6 +8,7 @@
 
 use guideway_scene::{Gesture, GesturePaths, RenderError};
 use guideway_spline::Affine;
+use rayon::prelude::*;
 
 use super::edit::EditEffect;
 use super::edit_patches::EditPatches;
@@ -20,7 +21,7 @@ use super::shown_gesture::ShownGesture;
 use super::uploaded_scene::UploadedScene;
 use crate::tiles::cache::picture_cache::DirtyArea;
 use crate::tiles::device_context::{DeviceContext, device_error};
-use crate::tiles::layouts::Stroke;
+use crate::tiles::layouts::{Cluster, Stroke};
 
 /// Paths of a gesture by the clusters that hold them.
 struct Selection {
@@ -159,6 +160,35 @@ pub(crate) fn begin(
     Ok(effect)
 }
 
+/// Clusters that one thread maps at a time: some 20 microseconds of work.
+const MAPPED_CHUNK: usize = 1024;
+
+/// Some clusters of a gesture after its map, and what is known of them.
+struct MappedChunk {
+    clusters: Vec<Cluster>,
+    area: DirtyArea,
+    reach_m: f64,
+    greatest_step_m: f32,
+}
+
+impl MappedChunk {
+    fn of(at_rest: &[(usize, Cluster)], by: Affine) -> Self {
+        let clusters = at_rest.iter().map(|(_, cluster)| cluster.mapped(by));
+        let mut chunk = Self {
+            clusters: clusters.collect(),
+            area: DirtyArea::default(),
+            reach_m: 0.0,
+            greatest_step_m: 0.0,
+        };
+        for cluster in &chunk.clusters {
+            chunk.area.add(cluster);
+            chunk.reach_m = chunk.reach_m.max(f64::from(cluster.reach_m()));
+            chunk.greatest_step_m = chunk.greatest_step_m.max(cluster.step_m);
+        }
+        chunk
+    }
+}
+
 /// Shows the paths of the gesture where a map leaves them. The caller marks the mapped clusters as
 /// dirty before, where they were, and after, where they are.
 pub(crate) fn map(
@@ -177,13 +207,17 @@ pub(crate) fn map(
     let step_before_m = facts.greatest_step_m;
     (facts.reach_m, facts.greatest_step_m) = (gesture.facts.reach_m, gesture.facts.greatest_step_m);
     facts.map = [by.x, by.y].map(|v| [v.x as f32, v.y as f32]);
+    let chunks = gesture.at_rest.par_chunks(MAPPED_CHUNK);
+    let mapped: Vec<MappedChunk> = chunks.map(|chunk| MappedChunk::of(chunk, by)).collect();
     gesture.shown_area = DirtyArea::default();
-    for (index, cluster) in &gesture.at_rest {
-        let mapped = cluster.mapped(by);
-        gesture.shown_area.add(&mapped);
-        facts.reach_m = facts.reach_m.max(f64::from(mapped.reach_m()));
-        facts.greatest_step_m = facts.greatest_step_m.max(mapped.step_m);
-        buffers.cluster_list[*index] = mapped;
+    let mut at_rest = gesture.at_rest.iter();
+    for chunk in mapped {
+        gesture.shown_area.join(chunk.area);
+        facts.reach_m = facts.reach_m.max(chunk.reach_m);
+        facts.greatest_step_m = facts.greatest_step_m.max(chunk.greatest_step_m);
+        for (cluster, (index, _)) in chunk.clusters.into_iter().zip(at_rest.by_ref()) {
+            buffers.cluster_list[*index] = cluster;
+        }
     }
     // Plans hold the distance of each buffer, and the kernels.
     effect.replaces_buffers = turned != gesture.turns() || step_before_m != facts.greatest_step_m;
