@@ -39,6 +39,8 @@ pub struct Contest {
     pub warmup: usize,
     /// Measured frames.
     pub frames: usize,
+    /// Drawing time of a method in milliseconds after which one measured frame suffices.
+    pub enough_ms: f64,
 }
 
 /// The result of a [`Contest`].
@@ -140,7 +142,7 @@ pub fn compare(
         frames: Frames {
             warmup: contest.warmup,
             count: contest.frames,
-            enough_ms: f64::INFINITY,
+            enough_ms: contest.enough_ms,
         },
     };
     let started: Vec<Result<Box<dyn Method>, StartError>> =
@@ -251,6 +253,7 @@ mod tests {
             budget: Budget::default(),
             warmup: 1,
             frames: 3,
+            enough_ms: f64::INFINITY,
         }
     }
 

@@ -15,7 +15,8 @@
 //! | `comparison` | measures a whole contest |
 //! | `tools`, `plan`, `peak_memory` | measures network, check, route and diff on one plan |
 //! | `measured`, `statistics`, `machine` | the report: results, summaries, the computer |
-//! | [`mod@format`] | numbers for tables and sentences |
+//! | [`survey`] | measures the same contests on each computer, for a page to send |
+//! | [`mod@format`], [`page`] | numbers for tables and sentences; parts of a page |
 
 mod comparison;
 mod dataset;
@@ -25,12 +26,14 @@ pub mod interleaved;
 mod machine;
 mod measured;
 mod motion;
+pub mod page;
 mod peak_memory;
 mod plan;
 pub mod runner;
 mod start;
 mod statistics;
 mod style_preset;
+pub mod survey;
 mod tools;
 mod zoomed_view;
 

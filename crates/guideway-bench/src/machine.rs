@@ -5,6 +5,8 @@ use std::thread;
 
 use serde::{Deserialize, Serialize};
 
+use crate::format::count;
+
 /// The computer and the program of a measurement. A field is `None` if the system does not report
 /// it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -42,6 +44,26 @@ impl Machine {
                 "release".to_owned()
             },
         }
+    }
+}
+
+impl Machine {
+    /// The processor with its threads and the memory, as a line of text.
+    pub fn processor(&self) -> String {
+        let memory = self
+            .memory_bytes
+            .map(|bytes| format!(", {} GB of memory", count(bytes / 1_000_000_000)));
+        format!(
+            "{}, {} threads{}",
+            self.cpu.as_deref().unwrap_or("unknown"),
+            self.cores,
+            memory.unwrap_or_default()
+        )
+    }
+
+    /// Version and profile of the program, as a line of text.
+    pub fn build(&self) -> String {
+        format!("{}, {} build", self.guideway, self.profile)
     }
 }
 

@@ -206,6 +206,6 @@ pub use guideway_formats::{
 #[cfg(feature = "gpu")]
 pub use methods::share_device;
 pub use methods::{
-    AUTO, Available, MethodError, MethodOption, graphics_adapters, live_method, method,
-    method_names, methods,
+    AUTO, Available, MethodError, MethodOption, device_limits, graphics_adapters, live_method,
+    method, method_names, methods,
 };

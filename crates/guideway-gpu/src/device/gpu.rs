@@ -129,6 +129,45 @@ impl Gpu {
         self.options
     }
 
+    /// Names and values of the limits and features that decide how methods draw.
+    pub fn limits(&self) -> Vec<(String, String)> {
+        let limits = self.device.limits();
+        let features = self.device.features();
+        let mebibytes = |bytes: u64| format!("{} MiB", bytes >> 20);
+        let subgroups = match features.contains(wgpu::Features::SUBGROUP) {
+            true => format!(
+                "{} to {} threads",
+                self.info.subgroup_min_size, self.info.subgroup_max_size
+            ),
+            false => "none".to_owned(),
+        };
+        let has_timestamps = features.contains(wgpu::Features::TIMESTAMP_QUERY);
+        let has_timestamps = if has_timestamps { "yes" } else { "no" };
+        let facts = [
+            ("Kind of device", format!("{:?}", self.info.device_type)),
+            ("Graphics interface", self.info.backend.to_string()),
+            (
+                "Bytes that a shader binds",
+                mebibytes(self.max_binding_bytes()),
+            ),
+            (
+                "Buffers per shader",
+                limits.max_storage_buffers_per_shader_stage.to_string(),
+            ),
+            (
+                "Threads per workgroup",
+                limits.max_compute_invocations_per_workgroup.to_string(),
+            ),
+            (
+                "Bytes per workgroup",
+                limits.max_compute_workgroup_storage_size.to_string(),
+            ),
+            ("Subgroups", subgroups),
+            ("Clock of the device", has_timestamps.to_owned()),
+        ];
+        facts.map(|(name, value)| (name.to_owned(), value)).to_vec()
+    }
+
     /// Most storage buffers per shader.
     pub fn max_storage_bindings(&self) -> u32 {
         self.device.limits().max_storage_buffers_per_shader_stage

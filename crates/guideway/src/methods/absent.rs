@@ -22,6 +22,11 @@ pub(super) mod gpu {
         None
     }
 
+    /// None: the build has no graphics device.
+    pub(in crate::methods) fn limits() -> Vec<(String, String)> {
+        Vec::new()
+    }
+
     /// Returns `false`: the build has no graphics device.
     pub(in crate::methods) fn is_in_hardware() -> bool {
         false

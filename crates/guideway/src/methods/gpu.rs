@@ -114,6 +114,11 @@ pub(super) fn adapters() -> Option<Vec<String>> {
     Some(guideway_gpu::adapters())
 }
 
+/// Names and values of the limits of the graphics device; empty without one.
+pub(super) fn limits() -> Vec<(String, String)> {
+    device().map_or(Vec::new(), |device| device.limits())
+}
+
 /// The device of all methods and options, or why there is none; `None` until one is needed.
 static DEVICE: Mutex<Option<Result<Arc<Gpu>, DeviceError>>> = Mutex::new(None);
 

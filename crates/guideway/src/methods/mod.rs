@@ -20,5 +20,6 @@ pub use entry::MethodOption;
 #[cfg(feature = "gpu")]
 pub use gpu::share_device;
 pub use registry::{
-    AUTO, Available, MethodError, graphics_adapters, live_method, method, method_names, methods,
+    AUTO, Available, MethodError, device_limits, graphics_adapters, live_method, method,
+    method_names, methods,
 };

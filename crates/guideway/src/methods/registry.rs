@@ -155,6 +155,11 @@ pub fn live_method() -> &'static str {
     }
 }
 
+/// Names and values of the limits of the graphics device that methods use; empty without one.
+pub fn device_limits() -> Vec<(String, String)> {
+    gpu::limits()
+}
+
 /// The graphics adapters of this computer with their drivers, hardware first. `None` in a build
 /// without the feature `gpu`.
 pub fn graphics_adapters() -> Option<Vec<String>> {

@@ -168,6 +168,8 @@ fn rejects_invalid_arguments_with_a_remedy() {
         &["bench", "--apart"],
         &["bench", "--drop"],
         &["bench", "--remove"],
+        &["bench", "--report", "laptop.txt"],
+        &["bench", "--report", "laptop.html", "-o", "laptop.json"],
         &["bench", "--motion", "edit", "--drop", "--restyle"],
         &["bench", "--motion", "edit", "--moved", "0"],
         &["bench", "--methods", "nothing"],

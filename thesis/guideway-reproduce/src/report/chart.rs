@@ -1,7 +1,7 @@
 //! Draws line charts as SVG with the colors of the style sheet of the page.
 
-use super::xml::escape;
 use guideway_bench::format::digits;
+use guideway_bench::page::escape;
 
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 340.0;
@@ -274,7 +274,7 @@ mod tests {
 
     #[test]
     fn the_style_sheet_has_every_line_class() {
-        let sheet = include_str!("style.css");
+        let sheet = guideway_bench::page::STYLE;
         assert!(STYLES >= crate::reproduce::METHODS.len());
         for style in 0..STYLES {
             assert!(sheet.contains(&format!("polyline.s{style} ")), "s{style}");

@@ -1,12 +1,10 @@
 //! Writes the page from the sections: one HTML file without scripts or external resources.
 
 use super::content::{Block, Section};
-use super::xml::{element, escape};
 use crate::reproduce::{Finding, Picture, Run, Verdict};
 use guideway_bench::Machine;
-use guideway_bench::format::{count, time};
-
-const STYLE: &str = include_str!("style.css");
+use guideway_bench::format::time;
+use guideway_bench::page::{document, element, escape, facts};
 
 /// The whole page, also valid XML, so that XML tools can check it.
 pub(super) fn page(run: &Run, sections: &[Section]) -> String {
@@ -15,13 +13,7 @@ pub(super) fn page(run: &Run, sections: &[Section]) -> String {
     } else {
         "Guideway: the thesis reproduced"
     };
-    let mut html = format!(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en-US\">\n<head>\n\
-         <meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n\
-         <h1>{title}</h1>\n"
-    );
+    let mut html = format!("<header>\n<h1>{title}</h1>\n");
     html += &header(run);
     html += "<nav><ol>\n";
     for section in sections {
@@ -41,7 +33,8 @@ pub(super) fn page(run: &Run, sections: &[Section]) -> String {
         section.blocks.iter().for_each(|b| html += &block(b));
         html += "</section>\n";
     }
-    html + "</main>\n</body>\n</html>\n"
+    html += "</main>\n";
+    document(title, &html)
 }
 
 fn header(run: &Run) -> String {
@@ -63,7 +56,7 @@ fn header(run: &Run) -> String {
              build.",
         );
     }
-    let processors = unique(machines().map(processor));
+    let processors = unique(machines().map(Machine::processor));
     if processors.len() > 1 {
         html += &notice(
             "The sessions had different processors: their times on the processor are not \
@@ -71,18 +64,20 @@ fn header(run: &Run) -> String {
         );
     }
     let devices = run.methods.iter().filter_map(|m| m.device.clone());
-    html += "<dl>\n";
-    for (name, values) in [
-        ("Measured", vec![measured(run)]),
-        ("Processor", processors),
-        ("System", unique(machines().map(|m| m.os.clone()))),
-        ("Devices", unique(devices)),
-        ("Guideway", unique(machines().map(build))),
-    ] {
-        let value = escape(&values.join("; "));
-        html += &format!("<dt>{name}</dt><dd>{value}</dd>\n");
-    }
-    html + "</dl>\n"
+    html += &facts(&[
+        ("Measured", measured(run)),
+        ("Processor", processors.join("; ")),
+        (
+            "System",
+            unique(machines().map(|m| m.os.clone())).join("; "),
+        ),
+        ("Devices", unique(devices).join("; ")),
+        (
+            "Guideway",
+            unique(machines().map(Machine::build)).join("; "),
+        ),
+    ]);
+    html
 }
 
 fn measured(run: &Run) -> String {
@@ -93,22 +88,6 @@ fn measured(run: &Run) -> String {
         several => format!("{several} sessions of {elapsed} in total"),
     };
     format!("{}, in {took}", started.join("; "))
-}
-
-fn processor(machine: &Machine) -> String {
-    let memory = machine
-        .memory_bytes
-        .map(|b| format!(", {} GB of memory", count(b / 1_000_000_000)));
-    format!(
-        "{}, {} threads{}",
-        machine.cpu.as_deref().unwrap_or("unknown"),
-        machine.cores,
-        memory.unwrap_or_default()
-    )
-}
-
-fn build(machine: &Machine) -> String {
-    format!("{}, {} build", machine.guideway, machine.profile)
 }
 
 /// Every value once, in the order of first occurrence.

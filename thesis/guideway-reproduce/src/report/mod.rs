@@ -4,15 +4,13 @@
 //! | module | purpose |
 //! |---|---|
 //! | `content` | sections of the page with their tables and charts |
-//! | `table`, `chart` | a table as HTML and CSV, a line chart as SVG |
-//! | `html`, `xml` | the page, and escaped markup |
+//! | `chart` | a line chart as SVG |
+//! | `html` | the page |
 //! | `file` | the files of a report |
 
 mod chart;
 mod content;
 mod file;
 mod html;
-mod table;
-mod xml;
 
 pub use file::{File, PAGE, files};

@@ -16,7 +16,8 @@ use crate::cli::values;
     guideway bench d1 --paths 100000 --motion edit --moved 100 --apart\n  \
     guideway bench d1 --paths 1000000 --methods gpu,cpu --magnify 20 --dress mixed\n  \
     guideway bench d2 --methods grid,grid+scan+radius+exit,tessellation --frames 60 -o d2.json\n  \
-    guideway bench tools --paths 1000000")]
+    guideway bench tools --paths 1000000\n  \
+    guideway bench --report laptop.html")]
 pub(crate) struct Args {
     /// Layout file, or dataset `d1` or `d2`; `tools` measures network, check, route and diff
     #[arg(value_name = "FILE|d1|d2|tools", default_value = "d1")]
@@ -90,6 +91,10 @@ pub(crate) struct Args {
     /// File to write the JSON report to
     #[arg(long, short, value_name = "JSON")]
     pub(super) output: Option<PathBuf>,
+    /// Measure this computer by ten fixed cases within about five minutes, and write a page to send
+    /// to others, with the figures as JSON beside it. Of the other options only --methods applies
+    #[arg(long, value_name = "HTML", conflicts_with = "output")]
+    pub(super) report: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -104,6 +104,7 @@ impl Args {
             },
             warmup: self.warmup,
             frames: self.frames,
+            enough_ms: f64::INFINITY,
         })
     }
 
@@ -119,7 +120,7 @@ impl Args {
     }
 
     /// The requested methods, or all that run here except the slow reference.
-    fn specs(&self) -> Vec<String> {
+    pub(super) fn specs(&self) -> Vec<String> {
         if self.methods.is_empty() {
             let all = guideway::methods().into_iter();
             let running = all.filter(|m| m.unavailable.is_none() && m.info.name != "oracle");

@@ -6,11 +6,13 @@
 //! | `contest` | the measurement that the arguments describe |
 //! | `run` | measures and reports |
 //! | `text` | the report as a table |
+//! | `survey` | measures fixed cases instead, for a page to send |
 //! | `tools` | measures the tools of a network instead |
 
 mod args;
 mod contest;
 mod run;
+mod survey;
 mod text;
 mod tools;
 

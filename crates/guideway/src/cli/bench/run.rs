@@ -5,7 +5,7 @@ use guideway::scene::Cancel;
 use guideway_bench::{Contestant, StartError, compare};
 
 use super::args::Args;
-use super::{text, tools};
+use super::{survey, text, tools};
 use crate::cli::error::Exit;
 use crate::cli::input;
 use crate::cli::output::{self, Output, REPORT_VERSION};
@@ -16,6 +16,9 @@ const REPORT: &str = "bench";
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     if let Some(path) = &args.output {
         input::check_output(args.file(), path)?;
+    }
+    if let Some(page) = &args.report {
+        return survey::run(page, &args.specs(), out);
     }
     if args.is_of_tools() {
         tools::run(args.paths, args.output.as_deref(), out)?;

@@ -1,9 +1,9 @@
 //! The last section: describes the measurement, and lists the methods and the parts of the run.
 
 use super::section::{Block, Section};
-use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{MethodFacts, PartFacts, Run};
 use guideway_bench::format::{count, digits, megabytes};
+use guideway_bench::page::{Cell, Column, Table};
 
 /// The section about the measurement.
 pub(super) fn section(run: &Run) -> Section {

@@ -1,6 +1,6 @@
 //! Table cells and columns that several sections share.
 
-use crate::report::table::{Cell, Column};
+use guideway_bench::page::{Cell, Column};
 use guideway_bench::{Measured, Outcome, Row, Summary};
 
 /// Median with the 5th and 95th percentile, for the page.

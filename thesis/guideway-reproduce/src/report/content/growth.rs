@@ -4,12 +4,12 @@ use super::blocks::compute_device_warning;
 use super::cells::{frame_cells, frame_columns, median_cell, why_not};
 use super::section::{Block, Section};
 use crate::report::chart::{Chart, Series};
-use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::names::{
     BIN, COUNT, CULL, GRID, GRID_RADIUS, PREFIX_SUM, SAMPLE, TESSELLATE_AND_DRAW,
 };
 use crate::reproduce::{Reading, Results, Run};
 use guideway_bench::format::megabytes;
+use guideway_bench::page::{Cell, Column, Table};
 use guideway_bench::{Dataset, Measured};
 
 /// Phases of figure 5.5, with their names in the file.

@@ -3,9 +3,9 @@
 use super::blocks::compute_device_warning;
 use super::cells::{frame_cells, frame_columns, median_cell, why_not};
 use super::section::{Block, Section};
-use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{Limit, MostPaths, Run, thesis};
 use guideway_bench::format::{count, digits, megabytes};
+use guideway_bench::page::{Cell, Column, Table};
 
 /// Table 5.1.
 pub(super) fn section(run: &Run) -> Section {

@@ -1,8 +1,8 @@
 //! A section of the page: a title and blocks of text, tables, charts and pictures.
 
 use crate::report::chart::Chart;
-use crate::report::table::Table;
 use crate::reproduce::{Finding, Picture};
+use guideway_bench::page::Table;
 
 /// One section of the page.
 pub(crate) struct Section {

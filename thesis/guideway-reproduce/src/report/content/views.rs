@@ -4,10 +4,10 @@ use super::blocks::pictures;
 use super::cells::{frame_cells, frame_columns, median_cell, why_not};
 use super::section::{Block, Section};
 use crate::report::chart::{Chart, Series};
-use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{Reading, Results, Run, names, thesis};
 use guideway_bench::Dataset;
 use guideway_bench::format::{count, percent};
+use guideway_bench::page::{Cell, Column, Table};
 
 /// Tables 5.2 and 5.3.
 pub(super) fn occupancy(run: &Run) -> Section {

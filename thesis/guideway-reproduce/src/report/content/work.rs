@@ -2,9 +2,9 @@
 
 use super::cells::{frame_cells, frame_columns, why_not};
 use super::section::{Block, Section};
-use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{Border, Reading, Run, names};
 use guideway_bench::format::{megabytes, percent};
+use guideway_bench::page::{Cell, Column, Table};
 
 /// Missing share of the coverage above which a picture counts as empty. Derived: a method with
 /// lines one pixel wide instead of three lacks two thirds.

@@ -1,26 +1,26 @@
-//! A table of the report: shown as HTML with rounded numbers, written as CSV with full precision.
+//! A table of a page: shown as HTML with rounded numbers, written as CSV with full precision.
 
 use super::xml::escape;
-use guideway_bench::format::{count, digits};
+use crate::format::{count, digits};
 
 /// A table of the page and of a CSV file.
 #[derive(Clone, Debug)]
-pub(crate) struct Table {
+pub struct Table {
     /// Name of the CSV file and anchor in the page, such as `table-5.1`.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// Caption.
-    pub(crate) title: String,
+    pub title: String,
     /// True if the page folds it, below the chart of its numbers.
-    pub(crate) is_folded: bool,
+    pub is_folded: bool,
     /// Columns from left to right.
-    pub(crate) columns: Vec<Column>,
+    pub columns: Vec<Column>,
     /// Rows with one cell per column.
-    pub(crate) rows: Vec<Vec<Cell>>,
+    pub rows: Vec<Vec<Cell>>,
 }
 
 /// A column of the page, of the file, or of both.
 #[derive(Clone, Debug)]
-pub(crate) struct Column {
+pub struct Column {
     /// Heading in the page.
     heading: Option<String>,
     /// Name in the file, with its unit.
@@ -29,31 +29,38 @@ pub(crate) struct Column {
 
 /// Content of a cell.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Cell {
+pub enum Cell {
+    /// A text.
     Text(String),
+    /// A measured number.
     Number(f64),
+    /// A whole number.
     Count(u64),
     /// A median with the 5th and 95th percentile.
     Range([f64; 3]),
+    /// No content.
     Nothing,
 }
 
 impl Column {
-    pub(crate) fn new(heading: impl Into<String>, key: impl Into<String>) -> Self {
+    /// A column of the page and of the file.
+    pub fn new(heading: impl Into<String>, key: impl Into<String>) -> Self {
         Self {
             heading: Some(heading.into()),
             key: Some(key.into()),
         }
     }
 
-    pub(crate) fn in_page(heading: impl Into<String>) -> Self {
+    /// A column of the page alone.
+    pub fn in_page(heading: impl Into<String>) -> Self {
         Self {
             heading: Some(heading.into()),
             key: None,
         }
     }
 
-    pub(crate) fn in_file(key: impl Into<String>) -> Self {
+    /// A column of the file alone.
+    pub fn in_file(key: impl Into<String>) -> Self {
         Self {
             heading: None,
             key: Some(key.into()),
@@ -62,7 +69,8 @@ impl Column {
 }
 
 impl Cell {
-    pub(crate) fn text(text: impl Into<String>) -> Self {
+    /// A cell with this text.
+    pub fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
 
@@ -107,7 +115,7 @@ impl From<Option<u64>> for Cell {
 
 impl Table {
     /// The table as CSV (RFC 4180), with full precision.
-    pub(crate) fn csv(&self) -> String {
+    pub fn csv(&self) -> String {
         let line = |cells: Vec<String>| cells.join(",") + "\r\n";
         let keys = self.columns.iter().filter_map(|column| column.key.clone());
         let mut file = line(keys.collect());
@@ -120,7 +128,7 @@ impl Table {
     }
 
     /// The table as HTML, with three significant digits and without empty columns.
-    pub(crate) fn html(&self) -> String {
+    pub fn html(&self) -> String {
         let has_cells = |column: usize| {
             let mut cells = self.rows.iter().filter_map(|row| row.get(column));
             cells.any(|cell| *cell != Cell::Nothing)
