@@ -221,7 +221,7 @@ fn without_memory_the_command_ends_with_an_error() {
     let guideway = env!("CARGO_BIN_EXE_guideway");
     let generated = ["generate", "d1", "--paths", "400000", "-o", "a.arrow"];
     assert_eq!(run_in(folder.path(), &generated).status.code(), Some(0));
-    for kilobytes in [100_000, 130_000] {
+    for kilobytes in [70_000, 100_000] {
         let script =
             format!("ulimit -v {kilobytes}; RAYON_NUM_THREADS=1 '{guideway}' info a.arrow");
         let mut shell = std::process::Command::new("sh");
