@@ -28,7 +28,7 @@ cargo xtask fuzz [MINUTES [TARGET...]]
 cargo xtask sanitize    reading of Arrow files, whose decoder has code in C, under AddressSanitizer
 cargo xtask conformance [--quick] [FORMAT...]
                         what is read and written, compared with other implementations; a table
-cargo xtask dist        packages of a release in target/dist/packages: .deb, .tar.xz, checksums, SBOM
+cargo xtask dist        packages in target/dist/packages: .deb, .tar.xz, checksums, SBOM
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
 ";

@@ -68,7 +68,8 @@ const WINDOW_NEEDS: &str = if cfg!(windows) {
      render` needs neither"
 } else {
     "A window needs a desktop (X11 or Wayland) and a graphics adapter. On Debian or Ubuntu install \
-     `libvulkan1` and `mesa-vulkan-drivers`, which need no hardware. `guideway render` needs neither"
+     `libvulkan1` and `mesa-vulkan-drivers`, which need no hardware. `guideway render` needs \
+     neither"
 };
 
 /// The font of the system for a letter that the fonts of the window lack: the one of pictures.

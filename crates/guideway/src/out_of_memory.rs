@@ -1,5 +1,5 @@
-//! The allocator of the command and of the window: without memory the program ends with an error and
-//! its exit code, and leaves no unfinished file, where Rust would abort.
+//! The allocator of the command and of the window: without memory the program ends with an error
+//! and its exit code, and leaves no unfinished file, where Rust would abort.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::io::Write;

@@ -16,6 +16,10 @@ pub fn check_repository(top: &Path) -> std::io::Result<Vec<Violation>> {
         .args(["ls-files", "--cached", "--others", "--exclude-standard"])
         .current_dir(top)
         .output()?;
+    if !listed.status.success() {
+        let reason = String::from_utf8_lossy(&listed.stderr).trim().to_owned();
+        return Err(std::io::Error::other(format!("git ls-files: {reason}")));
+    }
     let names = String::from_utf8_lossy(&listed.stdout).into_owned();
     let mut violations = Vec::new();
     for name in names.lines() {
@@ -27,4 +31,15 @@ pub fn check_repository(top: &Path) -> std::io::Result<Vec<Violation>> {
         }
     }
     Ok(violations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_outside_any_repository_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(check_repository(folder.path()).is_err());
+    }
 }

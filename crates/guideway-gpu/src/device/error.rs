@@ -4,8 +4,8 @@ use guideway_scene::RenderError;
 
 /// The reason and the remedy in the words of the system.
 const NO_ADAPTER: &str = if cfg!(windows) {
-    "neither Vulkan nor DirectX 12 runs. Install the driver of the graphics card's maker; Windows 10 \
-     and later draw by DirectX 12 without one, unless a policy forbids it"
+    "neither Vulkan nor DirectX 12 runs. Install the driver of the graphics card's maker; Windows \
+     10 and later draw by DirectX 12 without one, unless a policy forbids it"
 } else if cfg!(target_os = "macos") {
     "Metal does not run. It needs macOS 10.14 or later and a session on the screen"
 } else {

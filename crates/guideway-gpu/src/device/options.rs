@@ -20,9 +20,9 @@ pub struct GpuOptions {
 }
 
 impl GpuOptions {
-    /// The limits of chips that share the memory of the processor: bindings of 128 MiB, no timestamp
-    /// queries, no subgroup operations. Kernels need at most the 256 threads and 32 KiB per
-    /// workgroup that these chips have; a test looks at each.
+    /// The limits of chips that share the memory of the processor: bindings of 128 MiB, no
+    /// timestamp queries, no subgroup operations. Kernels need at most the 256 threads and 32 KiB
+    /// per workgroup that these chips have; a test looks at each.
     pub const INTEGRATED: Self = Self {
         storage_binding_bytes: Some(128 << 20),
         workgroups_per_dimension: Some(65_535),

@@ -15,7 +15,7 @@ use super::device_context::{DeviceContext, device_error};
 use super::frame::context::FrameContext;
 use super::frame::draw::{count_drawn_paths, draw_picture, fetch_pixels};
 use super::frame::presenter::Presenter;
-use super::frame::renderer::{DrawResult, Renderer};
+use super::frame::renderer::{Deliver, DrawResult, Renderer};
 use super::frame::target::TargetState;
 use super::kernels::Kernels;
 use super::options::{NAME, Shared};
@@ -138,7 +138,7 @@ impl PreparedTiles {
         frame: &FrameContext<'_>,
         paint: PaintMode,
         cancel: &Cancel,
-        deliver: impl FnMut(&Renderer<'_>, Range<usize>, &mut Vec<Stage>) -> Result<(), RenderError>,
+        deliver: impl Deliver,
     ) -> Result<DrawResult, RenderError> {
         let mut renderer = Renderer {
             device: &mut self.device,

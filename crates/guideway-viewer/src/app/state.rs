@@ -20,7 +20,7 @@ use crate::panels::{
     BottomPanel, FindingsPanel, NewEdgesPanel, PropertiesPanel, SideTabs, Welcome,
 };
 use crate::preferences::{PreferencesFile, WindowPlace};
-use crate::render_queue::{MethodSelection, WindowDevice};
+use crate::render_queue::MethodSelection;
 use crate::selection::{CopiedElements, ExactEdit, Find};
 use crate::services::AppServices;
 use crate::tools::{OtherHit, Tools};
@@ -82,11 +82,7 @@ impl App {
         services: Arc<dyn AppServices>,
         method: Option<String>,
     ) -> Self {
-        let context = LayerContext {
-            services,
-            repaint,
-            device: WindowDevice::default(),
-        };
+        let context = LayerContext::new(services, repaint);
         let (preferences_file, notice) = PreferencesFile::load(context.services.state_folder());
         let preferences = preferences_file.saved().clone();
         let locale = context.services.locale().unwrap_or_default();

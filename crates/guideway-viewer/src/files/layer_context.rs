@@ -13,3 +13,14 @@ pub(crate) struct LayerContext {
     pub(crate) repaint: RepaintHandle,
     pub(crate) device: WindowDevice,
 }
+
+impl LayerContext {
+    /// The connections before the window is open.
+    pub(crate) fn new(services: Arc<dyn AppServices>, repaint: RepaintHandle) -> Self {
+        Self {
+            services,
+            repaint,
+            device: WindowDevice::default(),
+        }
+    }
+}

@@ -323,17 +323,12 @@ mod tests {
 
     use super::*;
     use crate::files::draft_file::tests::left_behind;
-    use crate::render_queue::WindowDevice;
     use crate::tests::services::{TestServices, lanes};
 
     fn open_files() -> OpenFiles {
         let services = TestServices::with([("a.arrow", lanes(1)), ("b.arrow", lanes(2))]);
         let repaint: crate::background::RepaintHandle = Arc::new(|| {});
-        let mut files = OpenFiles::new(LayerContext {
-            services,
-            repaint,
-            device: WindowDevice::default(),
-        });
+        let mut files = OpenFiles::new(LayerContext::new(services, repaint));
         for name in ["a.arrow", "b.arrow"] {
             files.open(name.into(), "cpu", SceneOptions::default());
         }

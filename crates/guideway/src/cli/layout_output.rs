@@ -226,8 +226,8 @@ fn write_error(output: &Path, problem: WriteProblem) -> WriteError {
     }
 }
 
-/// Writes the layout into a new file for `output`, within the limits of this run. Returns the losses
-/// of the format.
+/// Writes the layout into a new file for `output`, within the limits of this run. Returns the
+/// losses of the format.
 ///
 /// # Errors
 /// When the format cannot hold the layout, or the file cannot be written.

@@ -1,5 +1,5 @@
-//! Stands in for the methods on graphics devices where a build lacks them, so that every build knows
-//! their names and says how to get them.
+//! Stands in for the methods on graphics devices where a build lacks them, so that every build
+//! knows their names and says how to get them.
 
 use super::entry::{Implementation, StartError};
 

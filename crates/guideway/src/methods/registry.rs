@@ -107,7 +107,7 @@ const ENTRIES: &[Entry] = &[
     },
     Entry {
         name: "tessellation",
-        summary: "Thesis 4.2: hardware tessellation, one draw call per path; one color, 1 pixel wide",
+        summary: "Thesis 4.2: hardware tessellation, one draw call per path; one color, 1 px wide",
         is_general: false,
         implementation: tessellation::PER_PATH,
     },

@@ -11,7 +11,7 @@ use super::context::{FrameContext, WindowJob};
 use super::draw_window::{draw_window, exceeds_loops};
 use super::line_source::LineSource;
 use super::near_points::{NearUpload, ensure_exact, over_budget, upload_missing};
-use super::renderer::{DrawResult, Renderer};
+use super::renderer::{Deliver, DrawResult, Renderer};
 use super::window::Window;
 use crate::device::Memory;
 use crate::tiles::cache::picture_cache::{CachedPicture, PictureReuse};
@@ -23,14 +23,13 @@ use crate::tiles::options::NAME;
 use crate::tiles::paint_mode::PaintMode;
 use crate::tiles::upload::uploaded_scene::UploadedScene;
 
-/// Draws a picture, or the part of it that cannot be reused. `deliver` takes rows of pixels, whose
-/// range in the picture it receives, from the start of the pixel buffer.
+/// Draws a picture, or the part of it that cannot be reused. `deliver` takes its rows.
 pub(crate) fn draw_picture(
     r: &mut Renderer<'_>,
     frame: &FrameContext<'_>,
     paint: PaintMode,
     cancel: &Cancel,
-    mut deliver: impl FnMut(&Renderer<'_>, Range<usize>, &mut Vec<Stage>) -> Result<(), RenderError>,
+    mut deliver: impl Deliver,
 ) -> Result<DrawResult, RenderError> {
     let mut result = DrawResult::default();
     let Some(tiles) = &r.target.tiles else {

@@ -1,6 +1,8 @@
 //! The arguments and the result of the draw functions.
 
-use guideway_scene::Stage;
+use std::ops::Range;
+
+use guideway_scene::{RenderError, Stage};
 
 use super::target::TargetState;
 use crate::tiles::device_context::DeviceContext;
@@ -16,6 +18,17 @@ pub(crate) struct Renderer<'a> {
     pub(crate) target: &'a mut TargetState,
     /// True if each stage is timed.
     pub(crate) times_stages: bool,
+}
+
+/// Takes finished rows from the start of the pixel buffer; the range is theirs in the picture.
+pub(crate) trait Deliver:
+    FnMut(&Renderer<'_>, Range<usize>, &mut Vec<Stage>) -> Result<(), RenderError>
+{
+}
+
+impl<F> Deliver for F where
+    F: FnMut(&Renderer<'_>, Range<usize>, &mut Vec<Stage>) -> Result<(), RenderError>
+{
 }
 
 /// Result of drawing a picture.

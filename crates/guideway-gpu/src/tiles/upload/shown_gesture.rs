@@ -16,7 +16,7 @@ pub(crate) struct ShownGesture {
     pub(super) is_selected: Vec<bool>,
     /// Mapped clusters without the map, ascending.
     pub(super) at_rest: Vec<(usize, Cluster)>,
-    /// Where the mapped clusters are shown.
+    /// The area in which the mapped clusters are shown.
     pub(super) shown_area: DirtyArea,
     /// Strokes that are drawn from clusters of the gesture instead.
     pub(super) hidden: Vec<(u32, Stroke)>,
@@ -43,7 +43,7 @@ impl ShownGesture {
         self.at_rest.iter().map(|(index, _)| *index)
     }
 
-    /// Where the mapped clusters are shown.
+    /// The area in which the mapped clusters are shown.
     pub(crate) fn shown_area(&self) -> DirtyArea {
         self.shown_area
     }
