@@ -64,6 +64,8 @@ pub(crate) struct PairReader<'b> {
     offset: usize,
     line: u32,
     encoding: Encoding,
+    /// Blanks are around all values of an ASCII file, and are no part of them.
+    is_padded: bool,
     /// Lines where a group code should be, but is none: their number, and the first of them.
     stray: Option<StrayLines>,
 }
@@ -97,13 +99,29 @@ impl<'b> PairReader<'b> {
             None if bytes.starts_with(BYTE_ORDER_MARK) => (BYTE_ORDER_MARK.len(), Encoding::Ascii),
             None => (0, Encoding::Ascii),
         };
-        Self {
+        let reader = Self {
             bytes,
             offset,
             line: 1,
             encoding,
+            is_padded: false,
             stray: None,
+        };
+        Self {
+            is_padded: reader.has_padded_keyword(),
+            ..reader
         }
+    }
+
+    /// Returns `true` if blanks are around the first keyword: in valid files none has any.
+    fn has_padded_keyword(mut self) -> bool {
+        while let Ok(Some(pair)) = self.next() {
+            if pair.code != 999 {
+                let text = pair.text();
+                return pair.code == 0 && text.trim_ascii() != text;
+            }
+        }
+        false
     }
 
     pub(crate) fn is_binary(&self) -> bool {
@@ -144,9 +162,13 @@ impl<'b> PairReader<'b> {
                 return Ok(None);
             };
             if let Some(code) = group_code(code.trim_ascii()) {
-                return Ok(self.text_line().map(|text| Pair {
+                let text = self.text_line();
+                return Ok(text.map(|text| Pair {
                     code,
-                    value: Value::Text(text),
+                    value: Value::Text(match self.is_padded {
+                        true => text.trim_ascii(),
+                        false => text,
+                    }),
                     line: Some(line),
                 }));
             }

@@ -107,6 +107,29 @@ fn what_a_damaged_drawing_holds_is_read() {
 }
 
 #[test]
+fn blanks_around_all_lines_are_no_part_of_values() {
+    let plain = text(&format!(
+        "0 SECTION\n2 HEADER\n9 $INSUNITS\n70 6\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n\
+         {}0 ENDSEC\n0 EOF",
+        LINE.replace("8 0", "8 MY WALLS")
+    ));
+    for (before, after) in [("\t", ""), ("    ", "  "), ("", "  ")] {
+        let lines = plain.lines();
+        let padded: String = lines
+            .map(|line| format!("{before}{line}{after}\n"))
+            .collect();
+        let layout = read(&padded);
+        assert_eq!(severities(&layout), []);
+        assert_eq!(layout.paths.get(0).id(), "A");
+        let (start, end) = ends(&layout, "A");
+        assert_near(start, 1.0, 0.0);
+        assert_near(end, 3.0, 1.0);
+        let layer = layout.paths.value(0, "layer").unwrap().to_string();
+        assert_eq!(layer, "MY WALLS");
+    }
+}
+
+#[test]
 fn an_entity_that_cannot_be_drawn_is_an_error() {
     for broken in [
         "0 LINE\n5 B\n10 0,5\n20 0\n11 1\n21 1",
