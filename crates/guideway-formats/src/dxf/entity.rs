@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use guideway_layout::Code;
 
 use super::affine3::Vector3;
+use super::hatch::hatch;
 use super::notes::{is_note, mark};
 use super::outlines::{face, multiline, solid};
 use super::records::Record;
@@ -30,7 +31,7 @@ pub(super) struct Entity<'b> {
 }
 
 /// The supported kinds of entities.
-const KINDS: [&str; 16] = [
+const KINDS: [&str; 17] = [
     "LINE",
     "ARC",
     "CIRCLE",
@@ -43,6 +44,7 @@ const KINDS: [&str; 16] = [
     "SOLID",
     "TRACE",
     "3DFACE",
+    "HATCH",
     "TEXT",
     "MTEXT",
     "ATTRIB",
@@ -123,6 +125,7 @@ pub(super) fn shape(kind: &str, record: &Record<'_>, texts: &TextDecoder) -> Sha
         "MLINE" => multiline(record),
         "SOLID" | "TRACE" => solid(record),
         "3DFACE" => face(record),
+        "HATCH" => hatch(record),
         note if is_note(note) => mark(note, record, texts),
         _ => Some(spline(record)),
     };

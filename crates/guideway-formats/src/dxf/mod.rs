@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | tokenize | bytes | pairs of group code and value | `crate::pair_reader` |
 //! | group | pairs | records (group code 0 up to the next one) | `records` |
-//! | parse | records | entities, layers, blocks | `drawing`, `entity`, `shape`, `outlines`, `style`, `header`, `clips`, `text` |
+//! | parse | records | entities, layers, blocks | `drawing`, `entity`, `shape`, `outlines`, `hatch`, `style`, `header`, `clips`, `text` |
 //! | map | entities, INSERTs | paths with colors | `entity_mapper`, `clip_region`, `shapes`, `fit_spline` |
 //! | note | texts, points, INSERTs | notes of the layout | `notes` |
 //! | write | layout | sections of pairs | `write`, `write_sections`, `pair_writer` |
@@ -20,6 +20,7 @@ mod entity;
 mod entity_counts;
 mod entity_mapper;
 mod fit_spline;
+mod hatch;
 mod header;
 mod notes;
 mod outlines;

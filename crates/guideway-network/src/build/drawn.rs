@@ -69,6 +69,10 @@ impl Drawn {
     }
 }
 
+/// Kinds of entities whose paths go around areas: no vehicle drives on them. Many are the heads of
+/// arrows.
+const AREAS: [&str; 4] = ["SOLID", "TRACE", "3DFACE", "HATCH"];
+
 pub(super) fn collect(drawing: &Layout, options: &BuildOptions, report: &mut BuildReport) -> Drawn {
     let (levels, rule_levels) = levels(drawing, options);
     let mut drawn = Drawn {
@@ -92,6 +96,7 @@ pub(super) fn collect(drawing: &Layout, options: &BuildOptions, report: &mut Bui
             continue;
         }
         let is_used = match rule {
+            _ if AREAS.contains(&text(drawing, path.row(), "entity")) => false,
             Some(rule) => !options.layers[rule as usize].leave,
             None => options.other_layers,
         };

@@ -96,6 +96,22 @@ fn circles_mark_stations_and_are_no_edges() {
 }
 
 #[test]
+fn outlines_of_areas_are_no_edges() {
+    let corners = "10|8|20|0|11|9|21|0|12|9|22|1|";
+    let square = "92|2|72|0|73|1|93|3|10|1|20|0|10|2|20|0|10|2|20|1|97|0|";
+    let layout = read(
+        "",
+        &format!(
+            "0|LINE|8|T|10|0|20|0|11|9|21|0|0|SOLID|8|T|{corners}0|TRACE|8|T|{corners}\
+             0|3DFACE|8|T|{corners}0|HATCH|8|T|10|0|20|0|91|1|{square}"
+        ),
+    );
+    assert_eq!(layout.paths.len(), 5);
+    let made = network(&layout, &BuildOptions::default());
+    assert_eq!((made.layout.paths.len(), made.report.paths_left), (1, 4));
+}
+
+#[test]
 fn sources_list_layers_and_notes_by_name() {
     let layout = read(
         DOCK,

@@ -117,3 +117,60 @@ fn limits_the_control_points_of_a_small_file() {
         (1, vec![Code::OutOfRange])
     );
 }
+
+#[test]
+fn hatches_are_outlines_unless_other_entities_draw_them() {
+    let head = "0 HATCH\n5 H\n8 WALLS\n10 0\n20 0\n30 0\n2 SOLID\n70 1\n71 0\n";
+    let tail = "75 0\n76 1\n98 1\n10 9\n20 9\n";
+    let hatch = |boundaries: &str| drawing("", "", &format!("{head}{boundaries}{tail}"));
+    let square = "92 7\n72 0\n73 1\n93 4\n10 0\n20 0\n10 2\n20 0\n10 2\n20 1\n10 0\n20 1\n";
+    let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (0.0, 0.0)];
+    let corners = corners.map(|(x, y)| Point::new(x, y));
+    let layout = hatch(&format!("91 1\n{square}97 0\n"));
+    assert_eq!(vertices(&layout, "H"), corners);
+    assert_eq!(codes(&layout), []);
+    let layer = layout.paths.value(0, "layer").unwrap().to_string();
+    assert_eq!(layer, "WALLS");
+    // Boundaries of other entities, and around texts.
+    for drawn in [
+        format!("91 1\n{square}97 1\n330 2F\n"),
+        format!("91 1\n{}97 0\n", square.replace("92 7", "92 10")),
+    ] {
+        assert_eq!(hatch(&drawn).paths.len(), 0, "{drawn}");
+    }
+    // A disc of two bulges in a square of edges, one of them clockwise.
+    let disc = "92 2\n72 1\n73 1\n93 2\n10 1\n20 0\n42 1\n10 3\n20 0\n42 1\n97 0\n";
+    let edges = "92 1\n93 3\n72 1\n10 0\n20 0\n11 4\n21 0\n\
+                 72 2\n10 4\n20 1\n40 1\n50 270\n51 90\n73 1\n\
+                 72 1\n10 4\n20 2\n11 0\n21 0\n97 0\n";
+    let layout = hatch(&format!("91 2\n{disc}{edges}"));
+    assert_eq!(layout.paths.len(), 2);
+    assert!((layout.paths.get(0).length_m() - std::f64::consts::TAU).abs() < 1e-4);
+    let length = 4.0 + std::f64::consts::PI + 20.0_f64.sqrt();
+    assert!((layout.paths.get(1).length_m() - length).abs() < 1e-4);
+    let (start, end) = ends(&layout, "H [2]");
+    assert_eq!(start, end);
+    // Edges that other kinds of curves interrupt are paths of their own.
+    let mixed = "91 1\n92 1\n93 3\n\
+                 72 3\n10 0\n20 0\n11 2\n21 0\n40 0.5\n50 0\n51 90\n73 1\n\
+                 72 2\n10 0\n20 0\n40 1\n50 270\n51 360\n73 0\n\
+                 72 4\n94 1\n73 0\n74 0\n95 4\n96 2\n40 0\n40 0\n40 1\n40 1\n\
+                 10 1\n20 0\n10 2\n20 0\n97 0\n97 0\n";
+    let layout = hatch(mixed);
+    let of = |id: &str| ends(&layout, id);
+    let [x1, x2, y1] = [(1.0, 0.0), (2.0, 0.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y));
+    for (id, from, to) in [("H [1]", x2, y1), ("H [2]", y1, x1), ("H [3]", x1, x2)] {
+        let (start, end) = of(id);
+        assert!(
+            start.distance(from) < 1e-9 && end.distance(to) < 1e-9,
+            "{id} {start} {end}"
+        );
+    }
+    // Mirrored by its plane.
+    let mirrored = format!("91 1\n{square}97 0\n210 0\n220 0\n230 -1\n");
+    let mirrored = vertices(&hatch(&mirrored), "H");
+    assert_eq!(mirrored, corners.map(|p| Point::new(-p.x, p.y)));
+    // Without a number of boundaries.
+    let broken = hatch(&format!("{square}97 0\n"));
+    assert_eq!(codes(&broken), [Code::MissingField]);
+}
