@@ -127,15 +127,15 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
         });
         let [(_, Some(start)), (_, Some(end))] = ends else {
             let missing: Vec<&str> = ends.iter().filter(|e| e.1.is_none()).map(|e| e.0).collect();
-            for point in &missing {
-                self.reader.report_unknown_point(path, point);
-            }
-            let detail = format!(
-                "the point \"{}\" does not exist or has no position",
-                missing.join("\" and \"")
-            );
+            let detail = match &missing[..] {
+                [point] => format!("the point \"{point}\" does not exist or has no position"),
+                points => format!(
+                    "the points \"{}\" do not exist or have no position",
+                    points.join("\" and \"")
+                ),
+            };
             self.reader.base.builder.check_text(&detail)?;
-            let remedy = "It is left out; correct it in the tool that wrote the file";
+            let remedy = "It is left out; add the point, or correct the name";
             let base = &mut self.reader.base;
             return base.refuse(&name, Code::UnknownNode, path, &detail, remedy);
         };

@@ -282,6 +282,7 @@ fn reports_unknown_points_and_accepts_loops() {
            <path name="P" sourcePoint="A" destinationPoint="A"/>"#,
     ));
     assert_eq!(codes(&layout), [Code::UnknownNode]);
+    assert_eq!(layout.diagnostics.iter().count(), 1, "one finding per path");
     assert_eq!(layout.refused.iter().next().unwrap().id, "P");
     assert_eq!(layout.paths.len(), 1);
     let place = &layout.diagnostics.iter().next().unwrap().place;
