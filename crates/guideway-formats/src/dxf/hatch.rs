@@ -141,7 +141,13 @@ impl<'r, 'b> BoundaryReader<'r, 'b> {
         Some(self.closed(vertices))
     }
 
-    fn closed(&self, vertices: Vec<Vertex>) -> Shape {
+    fn closed(&self, mut vertices: Vec<Vertex>) -> Shape {
+        // Some writers repeat the first corner at the end.
+        let first = vertices.first().map(|first| first.position);
+        let is_first = |last: &mut Vertex| Some(last.position) == first && last.bulge == 0.0;
+        if vertices.len() > 1 {
+            vertices.pop_if(is_first);
+        }
         Shape::Polyline(Box::new(Polyline {
             plane: self.plane,
             vertices,

@@ -131,6 +131,9 @@ fn hatches_are_outlines_unless_other_entities_draw_them() {
     assert_eq!(codes(&layout), []);
     let layer = layout.paths.value(0, "layer").unwrap().to_string();
     assert_eq!(layer, "WALLS");
+    // A writer that repeats the first corner at the end.
+    let repeated = square.replace("93 4", "93 5") + "10 0\n20 0\n97 0\n";
+    assert_eq!(vertices(&hatch(&format!("91 1\n{repeated}")), "H"), corners);
     // Boundaries of other entities, and around texts.
     for drawn in [
         format!("91 1\n{square}97 1\n330 2F\n"),
@@ -163,7 +166,7 @@ fn hatches_are_outlines_unless_other_entities_draw_them() {
         let (start, end) = of(id);
         assert!(
             start.distance(from) < 1e-9 && end.distance(to) < 1e-9,
-            "{id} {start} {end}"
+            "{id} {start:?} {end:?}"
         );
     }
     // Mirrored by its plane.
