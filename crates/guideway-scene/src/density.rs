@@ -1,8 +1,14 @@
 //! Density shading: maps the mean number of paths that cover a pixel to a color.
 //!
+//! A path counts half within half its width of either end ([`open_ends`]): so does the one that
+//! goes on from there, and both together count once, whatever their directions and lengths. With
+//! whole round caps each node would be a hot spot.
+//!
 //! With a million paths on two million pixels, a linear scale shows either crowded or single paths.
 //! A logarithm shows both; histogram equalization spreads the colors over the pixels.
 
+use guideway_layout::PathRef;
+use guideway_spline::Point;
 use rayon::prelude::*;
 
 use crate::color::Rgba;
@@ -12,6 +18,16 @@ use crate::ramp::{COLORS, Ramp, between};
 
 /// Pixels per parallel task: large enough that scheduling costs nothing against the work.
 const CHUNK: usize = 1 << 16;
+
+/// Distance of start and end, in meters, up to which a path is closed. Derived: the tolerance of
+/// converted curves.
+pub const CLOSED_M: f64 = 1e-4;
+
+/// Start and end of a path, in meters. `None` if the path is closed or has no segments.
+pub fn open_ends(path: PathRef<'_>) -> Option<[Point<f64>; 2]> {
+    let (start, end) = path.ends()?;
+    (start.distance(end) > CLOSED_M).then_some([start, end])
+}
 
 /// Map from counts to positions on the color ramp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -11,7 +11,8 @@
 //!   width.
 //! - The color of a point is that of the topmost covering path, composited over the paths below it
 //!   while it is translucent. A pixel is the mean over its square, of sRGB values as stored.
-//! - Density shading shows the mean number of paths that cover a pixel ([`density`]).
+//! - Density shading shows the mean number of paths that cover a pixel; near its ends a path counts
+//!   half ([`density`]).
 //!
 //! | files | content |
 //! |---|---|

@@ -118,6 +118,27 @@ pub(super) fn cases() -> Vec<SceneCase> {
                 .line((10.0, 10.0), (70.0, 70.0))
                 .density(ToneMap::Linear)
         }),
+        case("density/ends", || {
+            // Lines that meet head on, at a corner, and at a fork; a stub shorter than its width; a
+            // kink within a path; curved ends; a ring; a long and a short run of a path.
+            Sketch::new(128, 96)
+                .width(9.0)
+                .line((10.0, 80.0), (50.0, 84.5))
+                .line((50.0, 84.5), (90.0, 89.0))
+                .line((50.0, 84.5), (72.0, 62.0))
+                .line((100.0, 60.0), (103.0, 62.0))
+                .polyline(&[(110.0, 86.0), (118.0, 60.0), (106.0, 44.0)])
+                .curve(&[
+                    (-10.0, 20.0),
+                    (20.0, 60.0),
+                    (50.0, 20.0),
+                    (80.0, 60.0),
+                    (110.0, 20.0),
+                ])
+                .polyline(&[(20.0, 10.0), (60.0, 12.0), (40.0, 34.0), (20.0, 10.0)])
+                .polyline(&[(6.0, 68.0), (92.0, 68.0), (92.0, 74.0)])
+                .density(ToneMap::Linear)
+        }),
         case("density/stack-of-50", || {
             (0..50).fold(
                 Sketch::new(64, 48).width(6.0).density(ToneMap::Log),

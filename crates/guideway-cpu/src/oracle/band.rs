@@ -3,6 +3,8 @@
 use guideway_scene::Rgba;
 use guideway_spline::{Bounds, Point};
 
+use super::stroke::Stroke;
+
 /// Samples along each side of a pixel.
 const SIDE: usize = 16;
 const SAMPLES_PER_PIXEL: usize = SIDE * SIDE;
@@ -14,8 +16,8 @@ pub(super) struct Band {
     rows: usize,
     background: Rgba,
     samples: Vec<Sample>,
-    /// Per pixel, the number of samples covered, summed over paths.
-    hits: Vec<u64>,
+    /// Per pixel, the halves that its samples count, summed over paths.
+    halves: Vec<u64>,
 }
 
 #[derive(Clone, Copy)]
@@ -49,7 +51,7 @@ impl Band {
             rows: rows as usize * SIDE,
             background,
             samples: vec![empty; pixels * SAMPLES_PER_PIXEL],
-            hits: vec![0; pixels],
+            halves: vec![0; pixels],
         }
     }
 
@@ -58,21 +60,22 @@ impl Band {
     }
 
     pub(super) fn heap_bytes(&self) -> usize {
-        self.samples.capacity() * size_of::<Sample>() + self.hits.capacity() * size_of::<u64>()
+        self.samples.capacity() * size_of::<Sample>() + self.halves.capacity() * size_of::<u64>()
     }
 
-    /// Composites `color` over every sample within the radius of the line from `start` to `end`
-    /// that path number `order` has not covered yet.
+    /// Composites a path over every sample within its radius of the line from `start` to `end` that
+    /// it, as path number `order`, has not covered yet.
     pub(super) fn cover(
         &mut self,
         start: Point<f64>,
         end: Point<f64>,
-        radius_px: f64,
+        stroke: &Stroke,
         order: u32,
-        color: Rgba,
     ) {
-        let ink = premultiplied(color);
-        let shows_through = 1.0 - f32::from(color.a) / 255.0;
+        let ink = premultiplied(stroke.color);
+        let shows_through = 1.0 - f32::from(stroke.color.a) / 255.0;
+        let radius_px = stroke.radius_px;
+        let square = radius_px * radius_px;
         let along = end - start;
         let length_squared = along.dot(along);
         let origin = self.bounds_px.min;
@@ -83,7 +86,8 @@ impl Band {
 
         for row in first_row..last_row {
             for column in first_column..last_column {
-                let from_start = origin + Point::new(position(column), position(row)) - start;
+                let at = origin + Point::new(position(column), position(row));
+                let from_start = at - start;
                 // Nearest point of the line; a line without length is a point.
                 let fraction = if length_squared > 0.0 {
                     (from_start.dot(along) / length_squared).clamp(0.0, 1.0)
@@ -92,12 +96,15 @@ impl Band {
                 };
                 let apart = from_start - along * fraction;
                 let sample = &mut self.samples[row * self.columns + column];
-                if apart.dot(apart) <= radius_px * radius_px && sample.covered_by != order {
+                if apart.dot(apart) <= square && sample.covered_by != order {
                     sample.covered_by = order;
                     for (below, ink) in sample.over.iter_mut().zip(ink) {
                         *below = ink + *below * shows_through;
                     }
-                    self.hits[row / SIDE * (self.columns / SIDE) + column / SIDE] += 1;
+                    let ends = stroke.ends_px.iter().flatten();
+                    let near = ends.filter(|end| (at - **end).dot(at - **end) <= square);
+                    self.halves[row / SIDE * (self.columns / SIDE) + column / SIDE] +=
+                        2 - near.count() as u64;
                 }
             }
         }
@@ -123,8 +130,8 @@ impl Band {
 
     /// Writes the mean number of paths that cover each pixel.
     pub(super) fn write_counts(&self, counts: &mut [f32]) {
-        for (count, &hits) in counts.iter_mut().zip(&self.hits) {
-            *count = (hits as f64 / SAMPLES_PER_PIXEL as f64) as f32;
+        for (count, &halves) in counts.iter_mut().zip(&self.halves) {
+            *count = (halves as f64 / (2 * SAMPLES_PER_PIXEL) as f64) as f32;
         }
     }
 }

@@ -3,28 +3,31 @@
 //!
 //! A pixel is the mean of 16 x 16 samples. Paths are composited sample by sample, from the lowest
 //! draw rank to the highest; a path covers a sample that is within its radius of a chord of its
-//! curve. The oracle has no index and shares no code with other methods, not even the spline
-//! mathematics.
+//! curve; in density, one within the radius of an end counts half. The oracle has no index and
+//! shares no code with other methods, not even the spline mathematics.
 //!
 //! Cost: O(paths x pixels in the box of each path).
 
 mod band;
 mod chords;
+mod stroke;
 #[cfg(test)]
 mod tests;
 
 use std::sync::Arc;
 use std::time::Instant;
 
+use guideway_layout::RunPoints;
 use guideway_scene::{
     Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
     Report, Shading, Stage, Style, View, density, elapsed_ms,
 };
-use guideway_scene::{Edit, Gesture, Rgba, Scene};
+use guideway_scene::{Edit, Gesture, Scene};
 use guideway_spline::{Bounds, Point};
 
 use band::Band;
 use chords::Chords;
+use stroke::{Stroke, open_ends};
 
 const NAME: &str = "oracle";
 
@@ -68,15 +71,6 @@ struct PreparedOracle {
     memory_bytes: u64,
     /// Empty: the oracle prepares nothing.
     preparation: Preparation,
-}
-
-/// A path that may be visible.
-struct Stroke {
-    path: u32,
-    color: Rgba,
-    radius_px: f64,
-    /// Bounding box of all that the path covers.
-    bounds_px: Bounds<f64>,
 }
 
 impl Prepared for PreparedOracle {
@@ -192,8 +186,9 @@ impl PreparedOracle {
         let mut strokes = Vec::new();
         for &path in self.scene.draw_order() {
             cancel.check()?;
-            let runs = self.scene.layout().paths.get(path as usize).runs();
-            let points_px = runs.flat_map(|run| run.iter().map(|p| view.pixel_from_world(p)));
+            let path_ref = self.scene.layout().paths.get(path as usize);
+            let points = path_ref.runs().flat_map(RunPoints::iter);
+            let points_px = points.map(|p| view.pixel_from_world(p));
             let width_m = self.scene.width_m(path);
             let radius_px = style.line_rule.radius_px(width_m, view.px_per_m());
             let bounds_px = Bounds::of_points(points_px).map(|hull| hull.inflated(radius_px));
@@ -203,6 +198,7 @@ impl PreparedOracle {
                     color: self.scene.color(path),
                     radius_px,
                     bounds_px,
+                    ends_px: open_ends(path_ref, view),
                 });
             }
         }
@@ -223,7 +219,7 @@ impl PreparedOracle {
         for segment in path.runs().flat_map(|run| run.segments()) {
             let control_px = segment.map(|p| view.pixel_from_world(p));
             chords.of_segment(&control_px, &mut |start, end| {
-                band.cover(start, end, stroke.radius_px, order, stroke.color);
+                band.cover(start, end, stroke, order);
                 lines += 1;
             });
         }

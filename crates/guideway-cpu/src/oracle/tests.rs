@@ -252,6 +252,27 @@ fn density_is_the_mean_number_of_paths() {
 }
 
 #[test]
+fn paths_that_go_on_as_others_count_once_in_density() {
+    let style = Style {
+        shading: Shading::Density(ToneMap::Linear),
+        ..wide(4.0)
+    };
+    let drawn = |stops: &[f64]| {
+        let paths = stops
+            .windows(2)
+            .map(|pair| line(point(pair[0], 5.0), point(pair[1], 5.0)));
+        let paths: Vec<_> = paths.collect();
+        draw(layout(&paths), Rgba::BLACK, &view(20, 10), &style).0
+    };
+    let whole = drawn(&[1.0, 17.0]);
+    assert_eq!(drawn(&[1.0, 7.0, 17.0]), whole);
+    // Pieces shorter than they are wide.
+    let stops: Vec<f64> = (1..=17).map(f64::from).collect();
+    assert_eq!(drawn(&stops), whole);
+    assert_ne!(drawn(&[1.0, 7.0, 16.0]), whole);
+}
+
+#[test]
 fn bands_change_no_bit_and_too_little_memory_is_rejected() {
     let paths = [
         curve(&[(0.0, 9.0), (40.0, -30.0), (-9.0, 70.0), (60.0, 30.0)].map(|(x, y)| point(x, y))),

@@ -147,6 +147,19 @@ fn shaders_declare_the_constants_of_this_side() {
         "MAX_SPLIT_PARTS",
         MAX_SPLIT_PARTS,
     );
+    for format in [PointFormat::Rounded, PointFormat::Exact] {
+        let source = shaders::flatten(format);
+        for (name, flag) in [
+            ("WHOLE_PATH", WHOLE_PATH),
+            ("PATH_START", PATH_START),
+            ("PATH_END", PATH_END),
+        ] {
+            let expected = format!("const {name}: u32 = {flag:#010x}u;");
+            assert!(source.wgsl.contains(&expected), "{expected}");
+        }
+        let expected = format!("const MAX_SEGMENTS: u32 = {MAX_SEGMENTS:#x}u;");
+        assert!(source.wgsl.contains(&expected), "{expected}");
+    }
     let cluster_words = size_of::<Cluster>() / size_of::<u32>();
     assert_constant(
         &shaders::CULL.source(),

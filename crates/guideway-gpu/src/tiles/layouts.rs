@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::constants::{SEGMENTS_BIT, WHOLE_PATH};
+use super::constants::{MAX_SEGMENTS, SEGMENTS_BIT, WHOLE_PATH};
 
 /// Parameters of a frame. WGSL: `Frame` of `shared/frame.wgsl`, which documents each field.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -140,7 +140,7 @@ impl Stroke {
 
     /// Returns `true` if the stroke has segments.
     pub(crate) fn is_drawn(self) -> bool {
-        (self.extent & !WHOLE_PATH) >> SEGMENTS_BIT > 0
+        self.segments() > 0
     }
 
     /// Returns `true` if the stroke is a whole path.
@@ -150,7 +150,11 @@ impl Stroke {
 
     /// Number of control points, if the stroke has segments.
     pub(crate) fn points(self) -> u32 {
-        ((self.extent & !WHOLE_PATH) >> SEGMENTS_BIT) + 3
+        self.segments() + 3
+    }
+
+    fn segments(self) -> u32 {
+        self.extent >> SEGMENTS_BIT & MAX_SEGMENTS
     }
 }
 

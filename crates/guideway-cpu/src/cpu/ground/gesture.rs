@@ -26,6 +26,17 @@ impl ShownGesture {
         let thinned = self.thinned.capacity() * size_of::<u32>();
         (at_rest + thinned + self.is_split.capacity()) as u64
     }
+
+    /// A cluster without the map, if the map moves it.
+    fn at_rest(&self, cluster: u32) -> Option<ClusterBounds> {
+        let found = self.at_rest.binary_search_by_key(&cluster, |(at, _)| *at);
+        found.ok().map(|index| self.at_rest[index].1)
+    }
+
+    /// The map of a cluster.
+    pub(crate) fn map_of(&self, cluster: u32) -> Option<Affine> {
+        self.at_rest(cluster).map(|_| self.by)
+    }
 }
 
 /// The paths of a cluster as a frame shows them.
@@ -57,10 +68,7 @@ impl<'a> ClusterPaths<'a> {
         let Some(gesture) = gesture else {
             return paths;
         };
-        let found = gesture
-            .at_rest
-            .binary_search_by_key(&cluster, |(at, _)| *at);
-        let at_rest = found.ok().map(|index| gesture.at_rest[index].1);
+        let at_rest = gesture.at_rest(cluster);
         Self {
             origin_m: at_rest.map_or(origin_m, |bounds| bounds.origin),
             by: at_rest.map(|_| gesture.by),

@@ -19,5 +19,6 @@ pub(crate) const MAX_UNITS: f64 = 32_000.0;
 /// One bit per pixel of a tile: a word per row.
 pub(crate) type PixelRows = [u32; TILE_PX];
 
-/// Number of covered samples per pixel of a tile, summed over paths.
-pub(crate) type SampleCounts = [[u32; TILE_PX]; TILE_PX];
+/// Halves that the samples of each pixel of a tile count, summed over paths. Below 0 only by the
+/// rounding of an end.
+pub(crate) type SampleHalves = [[i32; TILE_PX]; TILE_PX];

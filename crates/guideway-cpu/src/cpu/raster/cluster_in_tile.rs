@@ -128,6 +128,16 @@ impl<'a, const C: usize> ClusterInTile<'a, C> {
         PieceRef { rank, key, piece }
     }
 
+    /// A point of the cluster's paths as the frame shows it, in pixels from the tile's corner.
+    pub(crate) fn shown_px(&self, at_m: Point<f64>) -> Point<f64> {
+        let ctx = self.job.ctx;
+        let by = ctx
+            .gesture
+            .and_then(|gesture| gesture.map_of(self.visible.cluster));
+        let shown_m = by.map_or(at_m, |by| by.apply(at_m));
+        ctx.transform.pixel(shown_m) - self.tile.corner
+    }
+
     /// The path of a member of the cluster.
     #[inline(always)]
     pub(crate) fn path(&self, member: usize) -> u32 {

@@ -17,7 +17,7 @@ use super::bits::{
 };
 use super::capsule::RowSpans;
 use crate::cpu::ground::samples::{ROWS, SOLID};
-use crate::cpu::ground::tile::{PixelRows, SampleCounts, TILE_PX};
+use crate::cpu::ground::tile::{PixelRows, SampleHalves, TILE_PX};
 
 /// Transmittance of each sample of a block, from 0 to 1.
 type Transmittance = [[f32; WINDOW_COLUMNS]; ROWS];
@@ -327,16 +327,16 @@ impl<const C: usize> CoverageMask<C> {
         }
     }
 
-    /// Adds the samples of the shape to the `counts` of their pixels, and starts a new shape.
+    /// Adds `halves` per sample of the shape to the `counts` of pixels, and starts a new shape.
     #[inline(always)]
-    pub(crate) fn count(&mut self, counts: &mut SampleCounts) {
+    pub(crate) fn count(&mut self, halves: i32, counts: &mut SampleHalves) {
         for window in 0..C {
             for row in set_bits(std::mem::take(&mut self.touched[window])) {
                 let shape = std::mem::take(&mut self.shape[window][row]);
                 let counts = &mut counts[row][window * Self::WINDOW_PX..];
                 let fresh = pixel_counts::<C>(&shape);
                 for (count, n) in counts.iter_mut().zip(fresh).take(Self::WINDOW_PX) {
-                    *count += u32::from(n);
+                    *count += halves * i32::from(n);
                 }
             }
         }

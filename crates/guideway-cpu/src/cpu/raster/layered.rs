@@ -2,6 +2,7 @@
 //! a time, adds them to the shape of their path, and composites the shape below those before it.
 
 use guideway_scene::Rgba;
+use guideway_scene::density::open_ends;
 use guideway_spline::Point;
 
 use super::bits::set_bits;
@@ -14,7 +15,7 @@ use crate::cpu::flatten::cluster_lines::ClusterLines;
 use crate::cpu::flatten::polylines::{Coordinate, bits_below};
 use crate::cpu::flatten::tile_lines::TileLines;
 use crate::cpu::ground::samples::{LAYERED, columns};
-use crate::cpu::ground::tile::{LANES, SampleCounts};
+use crate::cpu::ground::tile::{LANES, SampleHalves};
 
 /// Strokes of one opaque color per shape. Compositing a shape detects full tiles, so smaller shapes
 /// detect them earlier.
@@ -24,8 +25,16 @@ const STROKES_PER_SHAPE: usize = 32;
 #[derive(Clone, Copy, PartialEq)]
 struct Layer {
     color: Rgba,
-    /// The only path of the shape; `None` if several paths of one opaque color share it.
-    alone: Option<u32>,
+    /// The only stroke of the shape; `None` if several paths of one opaque color share it.
+    alone: Option<Stroke>,
+}
+
+/// What a waiting line draws.
+#[derive(Clone, Copy, Default, PartialEq)]
+struct Stroke {
+    path: u32,
+    /// The end of the path around which the line, a point, takes half a count back.
+    end: Option<u8>,
 }
 
 /// A tile that is being drawn, and the lines that wait for a full batch.
@@ -34,12 +43,13 @@ pub(crate) struct LayeredTile<'a> {
     tile: &'a Tile,
     mask: &'a mut CoverageMask<LAYERED>,
     cap_tables: &'a mut CapTables<LAYERED>,
-    /// Sample counts, if shapes are counted instead of composited.
-    counts: Option<&'a mut SampleCounts>,
+    /// Counts, if shapes are counted instead of composited.
+    counts: Option<&'a mut SampleHalves>,
+    /// The path that is counted, and the key of its cluster.
+    counted: Option<(u32, u32)>,
     x: [[f32; LANES]; 2],
     y: [[f32; LANES]; 2],
-    /// Path of each line.
-    paths: [u32; LANES],
+    strokes_of: [Stroke; LANES],
     len: usize,
     /// Half the stroke width of all these lines, in columns.
     radius: f32,
@@ -55,7 +65,7 @@ impl<'a> LayeredTile<'a> {
         tile: &'a Tile,
         mask: &'a mut CoverageMask<LAYERED>,
         cap_tables: &'a mut CapTables<LAYERED>,
-        counts: Option<&'a mut SampleCounts>,
+        counts: Option<&'a mut SampleHalves>,
     ) -> Self {
         Self {
             job,
@@ -63,9 +73,10 @@ impl<'a> LayeredTile<'a> {
             mask,
             cap_tables,
             counts,
+            counted: None,
             x: [[0.0; LANES]; 2],
             y: [[0.0; LANES]; 2],
-            paths: [0; LANES],
+            strokes_of: [Stroke::default(); LANES],
             len: 0,
             radius: 0.0,
             layer: None,
@@ -82,15 +93,20 @@ impl<'a> LayeredTile<'a> {
     /// Adds a piece below all others.
     #[inline(always)]
     pub(crate) fn add(&mut self, piece_ref: &PieceRef) {
-        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, piece_ref.key);
+        let key = piece_ref.key;
+        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, key);
         let piece = piece_ref.piece as usize;
+        let path = match cluster.lines() {
+            ClusterLines::Cached(_, lines) => cluster.path(lines.member(piece)),
+            ClusterLines::Clipped(lines) => cluster.path(lines.member(piece)),
+            ClusterLines::None => return,
+        };
+        self.count_path(Some((path, key)));
         match cluster.lines() {
             ClusterLines::Cached(unit_m, lines) => {
-                let path = cluster.path(lines.member(piece));
                 self.add_piece(&cluster.map_cached(*unit_m, lines), piece, path);
             }
             ClusterLines::Clipped(lines) => {
-                let path = cluster.path(lines.member(piece));
                 self.add_piece(&cluster.map_clipped(lines), piece, path);
             }
             ClusterLines::None => {}
@@ -104,8 +120,7 @@ impl<'a> LayeredTile<'a> {
         piece: usize,
         path: u32,
     ) {
-        let radius_px = self.job.common_radius_px;
-        let radius = columns::<LAYERED>(radius_px.unwrap_or_else(|| self.job.ctx.radius_px(path)));
+        let radius = self.radius_of(path);
         let bounds = mapped.lines.bounds(piece);
         let reach = Point::new(radius + 1.0, radius + 1.0);
         let [min, max] = [bounds.min, bounds.max].map(|p| p * mapped.scale + mapped.offset);
@@ -114,21 +129,59 @@ impl<'a> LayeredTile<'a> {
         if !self.mask.is_open(min, max) {
             return;
         }
+        self.choose_radius(radius);
+        let stroke = Stroke { path, end: None };
+        for vertex in mapped.lines.line_starts(piece..piece + 1) {
+            self.add_line(mapped.vertex(vertex), mapped.vertex(vertex + 1), stroke);
+        }
+    }
+
+    /// Half the stroke width of a path, in columns.
+    #[inline(always)]
+    fn radius_of(&self, path: u32) -> f32 {
+        let common_px = self.job.common_radius_px;
+        columns::<LAYERED>(common_px.unwrap_or_else(|| self.job.ctx.radius_px(path)))
+    }
+
+    #[inline(always)]
+    fn choose_radius(&mut self, radius: f32) {
         if radius != self.radius {
             self.flush();
             self.radius = radius;
         }
-        for vertex in mapped.lines.line_starts(piece..piece + 1) {
-            let (start, end) = (mapped.vertex(vertex), mapped.vertex(vertex + 1));
-            self.x[0][self.len] = start.x;
-            self.x[1][self.len] = end.x;
-            self.y[0][self.len] = start.y;
-            self.y[1][self.len] = end.y;
-            self.paths[self.len] = path;
-            self.len += 1;
-            if self.len == LANES {
-                self.flush();
-            }
+    }
+
+    #[inline(always)]
+    fn add_line(&mut self, start: Point<f32>, end: Point<f32>, stroke: Stroke) {
+        self.x[0][self.len] = start.x;
+        self.x[1][self.len] = end.x;
+        self.y[0][self.len] = start.y;
+        self.y[1][self.len] = end.y;
+        self.strokes_of[self.len] = stroke;
+        self.len += 1;
+        if self.len == LANES {
+            self.flush();
+        }
+    }
+
+    /// Begins to count a path, if paths are counted. The one before counts half at its ends.
+    #[inline(always)]
+    fn count_path(&mut self, path_and_key: Option<(u32, u32)>) {
+        if self.counts.is_none() || self.counted == path_and_key {
+            return;
+        }
+        let Some((path, key)) = std::mem::replace(&mut self.counted, path_and_key) else {
+            return;
+        };
+        let radius = self.radius_of(path);
+        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, key);
+        let ends = open_ends(self.job.ctx.scene.layout().paths.get(path as usize));
+        for (at_m, end) in ends.into_iter().flatten().zip(0..) {
+            let at_px = cluster.shown_px(at_m);
+            let at = Point::new(columns::<LAYERED>(at_px.x), columns::<LAYERED>(at_px.y));
+            self.choose_radius(radius);
+            let end = Some(end);
+            self.add_line(at, at, Stroke { path, end });
         }
     }
 
@@ -146,21 +199,21 @@ impl<'a> LayeredTile<'a> {
         let slopes = batch.slopes();
         for lane in set_bits(visible) {
             let lane = lane % LANES;
-            self.choose_layer(self.paths[lane]);
+            self.choose_layer(self.strokes_of[lane]);
             let caps = self.cap_tables.of(self.radius);
             let pixel_box = boxes.pixel_box(lane, &open);
             batch.stroke(lane, &slopes, pixel_box, self.mask, caps);
         }
     }
 
-    /// Starts a new shape unless `path` belongs to the one in the mask.
+    /// Starts a new shape unless `stroke` belongs to the one in the mask.
     #[inline(always)]
-    fn choose_layer(&mut self, path: u32) {
-        let color = self.job.ctx.scene.color(path);
+    fn choose_layer(&mut self, stroke: Stroke) {
+        let color = self.job.ctx.scene.color(stroke.path);
         let is_shared = color.is_opaque() && self.counts.is_none();
         let layer = Layer {
             color,
-            alone: (!is_shared).then_some(path),
+            alone: (!is_shared).then_some(stroke),
         };
         if self.layer != Some(layer) || (is_shared && self.strokes == STROKES_PER_SHAPE) {
             self.end_shape();
@@ -174,7 +227,10 @@ impl<'a> LayeredTile<'a> {
     fn end_shape(&mut self) {
         if let Some(layer) = self.layer.take() {
             match &mut self.counts {
-                Some(counts) => self.mask.count(counts),
+                Some(counts) => {
+                    let is_end = layer.alone.is_some_and(|stroke| stroke.end.is_some());
+                    self.mask.count(if is_end { -1 } else { 2 }, counts);
+                }
                 None => self.mask.composite(layer.color),
             }
         }
@@ -184,6 +240,7 @@ impl<'a> LayeredTile<'a> {
     /// Draws the lines that remain.
     #[inline(always)]
     pub(crate) fn finish(mut self) {
+        self.count_path(None);
         self.flush();
         self.end_shape();
     }

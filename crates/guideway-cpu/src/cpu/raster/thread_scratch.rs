@@ -4,7 +4,7 @@ use super::caps::CapTables;
 use super::cluster_in_tile::PieceRef;
 use super::coverage_mask::CoverageMask;
 use crate::cpu::ground::samples::{LAYERED, SOLID};
-use crate::cpu::ground::tile::{SampleCounts, TILE_PX};
+use crate::cpu::ground::tile::{SampleHalves, TILE_PX};
 
 /// Buffers of one thread.
 pub(crate) struct ThreadScratch {
@@ -14,7 +14,7 @@ pub(crate) struct ThreadScratch {
     pub(crate) caps: CapTables<LAYERED>,
     /// Pieces that may touch the tile.
     pub(crate) pieces: Vec<PieceRef>,
-    pub(crate) counts: Box<SampleCounts>,
+    pub(crate) counts: Box<SampleHalves>,
     /// Keys of the clusters that may touch the tile.
     pub(crate) clusters: Vec<u32>,
 }
@@ -36,7 +36,7 @@ impl ThreadScratch {
     pub(crate) fn bytes(is_opaque: bool) -> u64 {
         let masks = CoverageMask::<SOLID>::bytes(true) + CoverageMask::<LAYERED>::bytes(is_opaque);
         let caps = CapTables::<SOLID>::bytes() + CapTables::<LAYERED>::bytes();
-        masks + caps + size_of::<SampleCounts>() as u64
+        masks + caps + size_of::<SampleHalves>() as u64
     }
 
     /// Heap bytes of the lists of a tile.

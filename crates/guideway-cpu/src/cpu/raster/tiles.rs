@@ -118,7 +118,7 @@ pub(crate) fn draw_densities(
             count_layers_by(job.ctx.simd, job, scratch, tile);
             for (pixels, counts) in pixels.rows().zip(scratch.counts.iter()) {
                 for (pixel, &count) in pixels.iter_mut().zip(counts) {
-                    *pixel = count as f32 / SamplePattern::<LAYERED>::COUNT as f32;
+                    *pixel = count.max(0) as f32 / (2 * SamplePattern::<LAYERED>::COUNT) as f32;
                 }
             }
         },
@@ -368,6 +368,8 @@ fn count_layers(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile) {
     for (i, &key) in clusters.iter().enumerate() {
         prefetch_next(job, clusters, i);
         ClusterInTile::<LAYERED>::new(job, tile, key).collect_pieces(key, pieces);
+        // Runs of a path may lie apart, but its samples are to count once.
+        pieces.sort_unstable_by_key(|piece| piece.rank);
         // A loop: a closure would be compiled for the baseline.
         for piece in pieces.iter() {
             layers.add(piece);
@@ -377,6 +379,7 @@ fn count_layers(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile) {
     for line_range in job.lists.line_ranges(tile.index).flatten() {
         ClusterInTile::<LAYERED>::new(job, tile, line_range.key).add_piece(line_range, pieces);
     }
+    pieces.sort_unstable_by_key(|piece| piece.rank);
     for piece in pieces.iter() {
         layers.add(piece);
     }

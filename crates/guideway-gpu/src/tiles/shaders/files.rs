@@ -21,6 +21,7 @@ pub(crate) const FILES: &[(&str, &str)] = files![
     "composite/layers.wgsl",
     "composite/loop_count.wgsl",
     "composite/opaque.wgsl",
+    "composite/pixel_sums.wgsl",
     "composite/rank_batch.wgsl",
     "composite/rank_buckets.wgsl",
     "composite/row_lists.wgsl",

@@ -1,9 +1,10 @@
 //! Cuts paths into parts of at most 32 segments, each of which becomes one stroke.
 
 use guideway_layout::Layout;
+use guideway_scene::density::open_ends;
 use guideway_spline::Point;
 
-use crate::tiles::constants::{SEGMENTS_BIT, STROKE_SEGMENTS, WHOLE_PATH};
+use crate::tiles::constants::{PATH_END, PATH_START, SEGMENTS_BIT, STROKE_SEGMENTS, WHOLE_PATH};
 use crate::tiles::layouts::Stroke;
 
 /// A part of a run of a path.
@@ -14,14 +15,16 @@ pub(crate) struct PathPart {
     run: u32,
     first_point: u32,
     segments: u32,
-    pub(crate) is_whole: bool,
+    /// Flags of `Stroke::extent`.
+    flags: u32,
 }
 
 impl PathPart {
     /// Appends the parts of a path.
     pub(crate) fn of_path(layout: &Layout, path: u32, rank: u32, parts: &mut Vec<Self>) {
         let first = parts.len();
-        for (run, index) in layout.paths.get(path as usize).runs().zip(0..) {
+        let path_ref = layout.paths.get(path as usize);
+        for (run, index) in path_ref.runs().zip(0..) {
             let segments = run.len() - 3;
             for first in (0..segments).step_by(STROKE_SEGMENTS) {
                 parts.push(Self {
@@ -30,20 +33,29 @@ impl PathPart {
                     run: index,
                     first_point: first as u32,
                     segments: (segments - first).min(STROKE_SEGMENTS) as u32,
-                    is_whole: false,
+                    flags: 0,
                 });
             }
         }
-        if let [whole] = &mut parts[first..] {
-            whole.is_whole = true;
+        let parts = &mut parts[first..];
+        if let [whole] = parts {
+            whole.flags |= WHOLE_PATH;
         }
+        if let ([start, ..], Some(_)) = (&mut *parts, open_ends(path_ref)) {
+            start.flags |= PATH_START;
+            parts[parts.len() - 1].flags |= PATH_END;
+        }
+    }
+
+    /// Returns `true` if the part is a whole path.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.flags & WHOLE_PATH != 0
     }
 
     /// The stroke of this part, with its first point within its cluster.
     pub(crate) fn stroke(&self, first_point: u32) -> Stroke {
-        let whole = if self.is_whole { WHOLE_PATH } else { 0 };
         Stroke {
-            extent: first_point | self.segments << SEGMENTS_BIT | whole,
+            extent: first_point | self.segments << SEGMENTS_BIT | self.flags,
             rank: self.rank,
         }
     }

@@ -67,7 +67,7 @@ impl UploadedScene {
         let start = Instant::now();
         let ranks = DrawRanks::of(&self.scene);
         let parts = all_parts(&self.scene, &ranks);
-        let several = parts.iter().filter(|part| !part.is_whole);
+        let several = parts.iter().filter(|part| !part.is_whole());
         self.multi_stroke_paths = several.map(|part| part.path).collect();
         let packed = Packed::of(&self.scene, parts, packing);
         let facts = &mut self.facts;

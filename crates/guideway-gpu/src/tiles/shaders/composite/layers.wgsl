@@ -5,6 +5,7 @@
 // Bindings: frame, tile_lists, references, lines, line_ranks, styles -> pixels, counters. One
 // workgroup per tile; a thread owns one sample row and writes one pixel.
 
+// import: composite/pixel_sums.wgsl
 // import: composite/row_lists.wgsl
 // import: composite/loop_count.wgsl
 // import: shared/tile.wgsl
@@ -16,9 +17,6 @@ override IS_DENSITY: bool;
 var<workgroup> capsules: array<Capsule, BATCH_LINES>;
 var<workgroup> ranks: array<u32, BATCH_LINES>;
 var<workgroup> colors: array<u32, BATCH_LINES>;
-// Red, green, blue and opacity sums per pixel.
-var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
-
 @group(0) @binding(7) var<storage, read_write> counters: CounterBuffer;
 
 // Transmittance of each sample of this thread's row.
@@ -49,12 +47,16 @@ fn take_transmittance(first_sample: u32, bits: u32, opacity: f32) -> f32 {
 
 // Composites the gathered samples of a path below all before, and starts the next path.
 fn composite_path(row: u32, color: u32, gathered: ptr<function, SampleRow>) {
+    if IS_DENSITY {
+        count_samples(row, OF_STROKES, gathered);
+        return;
+    }
     let opacity = f32(color >> 24u) / 255.0;
     let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
     for (var word = 0u; word < ROW_WORDS; word++) {
         loops++;
         let all = (*gathered)[word];
-        let fresh = select(all & ~covered[word], all, IS_DENSITY);
+        let fresh = all & ~covered[word];
         (*gathered)[word] = 0u;
         for (var left = fresh; left != 0u;) {
             loops++;
@@ -62,14 +64,10 @@ fn composite_path(row: u32, color: u32, gathered: ptr<function, SampleRow>) {
             let bits = pixel_bits(left, of_word);
             left &= ~(bits << (of_word * SAMPLES_PER_ROW));
             let pixel = first_pixel + word * PIXELS_PER_WORD + of_word;
-            if IS_DENSITY {
-                atomicAdd(&sums[pixel * 4u], countOneBits(bits));
-            } else {
-                let first_sample = word * 32u + of_word * SAMPLES_PER_ROW;
-                add_color(pixel, color, take_transmittance(first_sample, bits, opacity));
-            }
+            let first_sample = word * 32u + of_word * SAMPLES_PER_ROW;
+            add_color(pixel, color, take_transmittance(first_sample, bits, opacity));
         }
-        if !IS_DENSITY && opacity >= 1.0 {
+        if opacity >= 1.0 {
             covered[word] |= fresh;
         }
     }
@@ -80,9 +78,13 @@ fn load_batch(tile: Tile, thread: u32, first: u32, end: u32) {
     clear_row_lists(thread);
     if thread < BATCH_LINES && first + thread < end {
         let capsule = capsule_of_reference(tile, first + thread);
-        let rank = line_ranks[references[first + thread]];
+        let line = references[first + thread];
+        let rank = line_ranks[line];
         count_reads(2u);
         capsules[thread] = capsule;
+        if IS_DENSITY {
+            path_ends[thread] = path_ends_of_capsule(line, capsule);
+        }
         ranks[thread] = rank;
         colors[thread] = style_of(rank).color;
         insert_line(thread, capsule);
@@ -141,6 +143,9 @@ fn main(
                     color = colors[line];
                 }
                 cover(&gathered, capsules[line], thread);
+                if IS_DENSITY {
+                    count_ends(thread, capsules[line], path_ends[line]);
+                }
             }
         }
         if IS_DENSITY {
@@ -159,7 +164,7 @@ fn main(
         sum[channel] = atomicLoad(&sums[thread * 4u + channel]);
     }
     if IS_DENSITY {
-        write_pixel(tile, thread, bitcast<u32>(f32(sum.x) / samples));
+        write_pixel(tile, thread, bitcast<u32>(paths_of(sum) / samples));
     } else {
         let shares = vec4f(sum) / (samples * SUM_STEPS);
         write_pixel(tile, thread, over_background(shares.rgb, shares.a / 255.0));

@@ -27,11 +27,13 @@ fn write_culled_line(slot: u32) {
     count_writes(1u);
 }
 
-fn emit_line(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
+// `path_ends`: whether a path starts at a, and whether it ends at b.
+fn emit_line(slot: u32, rank: u32, a: vec2f, b: vec2f, path_ends: vec2<bool>, radius: f32) {
     if slot >= frame.line_capacity {
         return;
     }
     var line = vec4f(a, b);
+    var ends = path_ends;
     if !is_inside {
         let part = clip_to_lod(a, b);
         if part.x > part.y {
@@ -43,8 +45,9 @@ fn emit_line(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
             select(a, a + (b - a) * part.x, part.x > 0.0),
             select(b, a + (b - a) * part.y, part.y < 1.0),
         );
+        ends &= vec2<bool>(part.x <= 0.0, part.y >= 1.0);
     }
-    let words = packed_line(line);
+    let words = packed_line(line, ends);
     let is_flattened = count_tiles(line_of(words), radius + ROUNDING_MARGIN_PX);
     // A later frame may need hidden lines of the other passes.
     if dispatch.occlusion_pass == 2u && !is_flattened {

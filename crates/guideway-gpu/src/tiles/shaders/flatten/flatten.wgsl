@@ -32,6 +32,7 @@ var<workgroup> planned_strokes: array<PlannedStroke, THREADS>;
 
 struct PlannedStroke {
     first_point: u32,
+    extent: u32,
     rank: u32,
     pieces: Subdivision,
 }
@@ -47,10 +48,15 @@ fn emit_lines(thread: u32, any: Curve, numbers: vec2u, first_slot: u32) {
         }
         let it = planned_strokes[stroke];
         curve.first_point = it.first_point;
-        let part = locate_line(curve, it.pieces, it.pieces.lines + line - scan_ends[stroke]);
+        let number = it.pieces.lines + line - scan_ends[stroke];
+        let part = locate_line(curve, it.pieces, number);
         let a = line_end_px(curve, part, part.step);
         let b = line_end_px(curve, part, part.step + 1u);
-        emit_line(first_slot + line - numbers.x, it.rank, a, b, radius_of(it.rank));
+        let ends = vec2<bool>(
+            number == 0u && (it.extent & PATH_START) != 0u,
+            number + 1u == it.pieces.lines && (it.extent & PATH_END) != 0u,
+        );
+        emit_line(first_slot + line - numbers.x, it.rank, a, b, ends, radius_of(it.rank));
     }
 }
 
@@ -99,7 +105,8 @@ fn main(
                 atomicAdd(&drawn_paths, 1u);
             }
         }
-        planned_strokes[thread] = PlannedStroke(curve.first_point, stroke.rank, pieces);
+        let planned = PlannedStroke(curve.first_point, stroke.extent, stroke.rank, pieces);
+        planned_strokes[thread] = planned;
         workgroup_scan(thread, pieces.lines);
         let part = cluster_part(i);
         let numbers = (scan_ends[THREADS - 1u] * vec2u(part, part + 1u)) >> vec2u(parts_log2);

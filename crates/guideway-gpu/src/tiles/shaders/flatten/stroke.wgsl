@@ -1,19 +1,24 @@
 // A stroke: part of a path, at most 32 segments of a uniform cubic B-spline. Rust: `Stroke`.
 
 struct Stroke {
-    // Bits 0-15: first control point, relative to its cluster. Bits 16-30: number of segments, 0 if
-    // hidden. Bit 31: the stroke is a whole path.
+    // Bits 0-15: first control point, relative to its cluster. Bits 16-28: number of segments, 0 if
+    // hidden. Bits 29-31: flags.
     extent: u32,
     // Draw rank of its path.
     rank: u32,
 }
 
+// The stroke is a whole path.
 const WHOLE_PATH: u32 = 0x80000000u;
+// An open path begins or ends with the stroke.
+const PATH_START: u32 = 0x40000000u;
+const PATH_END: u32 = 0x20000000u;
+const MAX_SEGMENTS: u32 = 0x1fffu;
 
 fn first_point_of(stroke: Stroke) -> u32 {
     return stroke.extent & 0xffffu;
 }
 
 fn segments_of(stroke: Stroke) -> u32 {
-    return (stroke.extent & ~WHOLE_PATH) >> 16u;
+    return (stroke.extent >> 16u) & MAX_SEGMENTS;
 }

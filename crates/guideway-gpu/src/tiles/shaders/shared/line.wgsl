@@ -3,24 +3,31 @@
 // `lines: array<u32>`.
 //
 //     word 0: x1 (bits 0-22)  bits 0-7   of y2 (bits 24-31)
-//     word 1: y1 (bits 0-22)  bits 8-15  of y2 (bits 24-31)
-//     word 2: x2 (bits 0-22)  bits 16-22 of y2 (bits 24-30)
+//     word 1: y1 (bits 0-22)  bits 8-15  of y2 (bits 24-31)  bit 23: a path starts at 1
+//     word 2: x2 (bits 0-22)  bits 16-22 of y2 (bits 24-30)  bit 23: a path ends at 2
 
 // import: shared/frame.wgsl
 // import: shared/work_counts.wgsl
 
 const LINE_WORDS: u32 = 3u;
-// First word of a culled line. No other line has bit 23 set.
+// First word of a culled line. No other line has bit 23 of that word set.
 const NO_LINE: u32 = 0xffffffffu;
+const PATH_END_BIT: u32 = 23u;
 // 2^23: from here on floats are whole numbers, and their low bits are those of the number.
 const WHOLE: f32 = 8388608.0;
 // The step at the center of the LOD.
 const MIDDLE: f32 = 4194304.0;
 
-fn packed_line(line: vec4f) -> vec3u {
+fn packed_line(line: vec4f, path_ends: vec2<bool>) -> vec3u {
     let steps = clamp(line * frame.steps_per_px + MIDDLE, vec4f(0.0), vec4f(WHOLE - 1.0));
     let bits = bitcast<vec4u>(steps + WHOLE) & vec4u(0x7fffffu);
-    return bits.xyz | ((vec3u(bits.w) << vec3u(24u, 16u, 8u)) & vec3u(0xff000000u));
+    let ends = vec3u(0u, vec2u(path_ends) << vec2u(PATH_END_BIT));
+    return bits.xyz | ends | ((vec3u(bits.w) << vec3u(24u, 16u, 8u)) & vec3u(0xff000000u));
+}
+
+// Returns whether a path starts at the first point of a line, and whether it ends at the second.
+fn path_ends_of(words: vec3u) -> vec2<bool> {
+    return vec2<bool>((words.yz >> vec2u(PATH_END_BIT)) & vec2u(1u));
 }
 
 // Returns a line in picture pixels. One fma, because a compiler could round separate operations

@@ -1,0 +1,71 @@
+// Sums over the samples of each pixel. In density a path counts half around each of its ends: per
+// sample two halves of its strokes, less one of either end.
+
+// import: composite/sample_row.wgsl
+// import: composite/loop_count.wgsl
+// import: shared/tile.wgsl
+
+// Whether the upper and the lower end of each capsule are ends of a path.
+var<workgroup> path_ends: array<vec2<bool>, BATCH_LINES>;
+// Red, green, blue and opacity sums per pixel; or the samples of strokes, and those of ends.
+var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
+
+const OF_STROKES: u32 = 0u;
+const OF_ENDS: u32 = 1u;
+
+// Adds samples of a row to a sum of their pixels, and empties the row.
+fn count_samples(row: u32, sum: u32, samples: ptr<function, SampleRow>) {
+    let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
+    for (var word = 0u; word < ROW_WORDS; word++) {
+        loops++;
+        for (var left = (*samples)[word]; left != 0u;) {
+            loops++;
+            let of_word = firstTrailingBit(left) / SAMPLES_PER_ROW;
+            let bits = pixel_bits(left, of_word);
+            left &= ~(bits << (of_word * SAMPLES_PER_ROW));
+            let pixel = first_pixel + word * PIXELS_PER_WORD + of_word;
+            atomicAdd(&sums[pixel * 4u + sum], countOneBits(bits));
+        }
+        (*samples)[word] = 0u;
+    }
+}
+
+// Counts the samples of a row around an end of a path.
+fn count_end(row: u32, center: vec2f, radius: f32) {
+    // A capsule without length.
+    let disc = Capsule(
+        center,
+        vec2f(0.0),
+        center.y + BORDER_SLACK,
+        center.y - BORDER_SLACK,
+        1e20,
+        radius,
+    );
+    var samples: SampleRow;
+    cover(&samples, disc, row);
+    count_samples(row, OF_ENDS, &samples);
+}
+
+// Counts the samples of a row around the ends of a capsule that are ends of a path.
+fn count_ends(row: u32, capsule: Capsule, ends: vec2<bool>) {
+    if ends.x {
+        count_end(row, capsule.upper, capsule.radius);
+    }
+    if ends.y {
+        count_end(row, capsule.upper + capsule.along, capsule.radius);
+    }
+}
+
+// Returns whether the upper and the lower end of the capsule of a line are ends of a path.
+fn path_ends_of_capsule(index: u32, capsule: Capsule) -> vec2<bool> {
+    let words = words_of_line(index);
+    let line = line_of(words);
+    let ends = path_ends_of(words);
+    return select(ends.yx, ends, dot(line.zw - line.xy, capsule.along) >= 0.0);
+}
+
+// Returns the number of paths times that of samples. An end may hold a sample more than its stroke,
+// by rounding.
+fn paths_of(sum: vec4u) -> f32 {
+    return f32(max(2u * sum[OF_STROKES], sum[OF_ENDS]) - sum[OF_ENDS]) / 2.0;
+}
