@@ -47,6 +47,7 @@
 
 mod backdrop;
 mod blend;
+mod crowd;
 mod decorations;
 mod error;
 mod levels;

@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use guideway_formats::Progress;
 use guideway_scene::{
-    Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Rgba, Shading, Style, View,
-    elapsed_ms,
+    Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, View, elapsed_ms,
 };
 
 use crate::backdrop::SweptReport;
+use crate::crowd::Covered;
 use crate::decorations::density_legend;
 use crate::levels::copy;
 use crate::overlay::PreparedOverlay;
@@ -81,7 +81,8 @@ impl Picture {
             .collect();
         let mut density = None::<PreparedOverlay>;
         let mut report = None::<Report>;
-        let (mut render_ms, mut write_ms, mut bare_pixels) = (0.0, 0.0, 0);
+        let (mut render_ms, mut write_ms) = (0.0, 0.0);
+        let mut covered = Covered::default();
         let size = FrameSize::new(1, 1)?;
         let (mut frame, mut below) = (Frame::new(size), Frame::new(size));
         for strip in view.strips(prepared.strip_pixels()) {
@@ -90,6 +91,7 @@ impl Picture {
             }
             let started = Instant::now();
             let of_strip = prepared.render_strip(&strip, &style, &Cancel::default(), &mut frame)?;
+            covered.add(&frame, style.background);
             if let Some(backdrop) = &mut backdrop {
                 backdrop.render(&strip, background, &mut below)?;
                 blend::composite_over(&below, &mut frame);
@@ -97,7 +99,6 @@ impl Picture {
             for marks in &marks {
                 marks.draw(&strip, &mut frame);
             }
-            bare_pixels += count_bare(&frame, background);
             if let (Some(corner), Some(colors)) = (decorations.density_corner, &of_strip.density)
                 && density.is_none()
             {
@@ -119,9 +120,8 @@ impl Picture {
             progress.advance(strip.rows().end.into(), view.size().height().into());
         }
         let mut report = report.unwrap_or_default();
-        report
-            .notes
-            .extend(density_hint(&report, bare_pixels, &view, &self.style));
+        let hint = covered.density_hint(&report, &style);
+        report.notes.extend(hint);
         report.notes.extend(decorations.notes);
         Ok(Rendered {
             view,
@@ -252,62 +252,6 @@ pub(crate) fn join(levels: Vec<Rendered>) -> Rendered {
     report.hidden = report.total.saturating_sub(shown);
     report.notes.dedup();
     all
-}
-
-/// Pixels that show the background alone.
-fn count_bare(frame: &Frame, background: Rgba) -> usize {
-    let bare = background.to_u32().to_be_bytes();
-    let pixels = frame.pixels().iter();
-    pixels.filter(|&&pixel| pixel == bare).count()
-}
-
-/// Least number of paths that are a crowd.
-const MANY_PATHS: u64 = 10_000;
-
-impl Picture {
-    /// Returns `true` if many paths cover more than half of the picture, so that their density says
-    /// more than their colors. Renders the paths alone, if there are many.
-    ///
-    /// # Errors
-    /// See [`Picture::render`].
-    pub fn is_crowded(
-        &self,
-        method: &dyn Method,
-        progress: &dyn Progress,
-    ) -> Result<bool, ComposeError> {
-        if (self.scene.draw_order().len() as u64) < MANY_PATHS {
-            return Ok(false);
-        }
-        let style = Style {
-            shading: Shading::Color,
-            ..self.style
-        };
-        let view = self.view()?;
-        let mut prepared = method.prepare(Arc::clone(&self.scene), &self.budget)?;
-        let mut frame = Frame::new(FrameSize::new(1, 1)?);
-        let (mut drawn, mut bare_pixels) = (0, 0);
-        for strip in view.strips(prepared.strip_pixels()) {
-            if progress.cancelled() {
-                return Err(RenderError::Cancelled.into());
-            }
-            let report = prepared.render_strip(&strip, &style, &Cancel::default(), &mut frame)?;
-            drawn += report.drawn;
-            bare_pixels += count_bare(&frame, style.background);
-        }
-        Ok(is_crowd(drawn, bare_pixels, &view))
-    }
-}
-
-/// Returns `true` if many paths cover more than half of a picture.
-fn is_crowd(drawn: u64, bare_pixels: usize, view: &View) -> bool {
-    drawn >= MANY_PATHS && bare_pixels * 2 < view.size().pixels()
-}
-
-/// Suggests density shading where many paths cover most of the picture.
-fn density_hint(report: &Report, bare_pixels: usize, view: &View, style: &Style) -> Option<String> {
-    let is_crowded = is_crowd(report.drawn, bare_pixels, view);
-    let note = "paths cover most of the picture; `--shade density` shows how many overlap";
-    (is_crowded && style.shading == Shading::Color).then(|| note.to_owned())
 }
 
 #[cfg(test)]

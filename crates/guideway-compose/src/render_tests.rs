@@ -4,7 +4,8 @@ use guideway_cpu::Cpu;
 use guideway_formats::{ReadOptions, read_file};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{
-    Budget, ColorBy, DrawList, Preparation, Prepared, Scene, SceneOptions, Strip, TextLine,
+    Budget, ColorBy, DrawList, Preparation, Prepared, Rgba, Scene, SceneOptions, Shading, Strip,
+    Style, TextLine,
 };
 use guideway_spline::Point;
 

@@ -59,7 +59,7 @@ pub(super) struct StyleArgs {
     #[arg(long, value_name = "RRGGBB", value_parser = values::background)]
     background: Option<Rgba>,
     /// Value of a pixel: the color of the topmost path, or the number of paths [default: density
-    /// where many paths cover more than half of the picture, else color]
+    /// where many paths cover more than half of the area that they take, else color]
     #[arg(long)]
     shade: Option<Shade>,
     /// Map from the number of paths to a color, with `--shade density` [default: log]
