@@ -7,7 +7,7 @@ use guideway_scene::{Budget, DrawList, FrameSize, RenderError, Scene, Style, Vie
 use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
-use crate::decorations::{Decorations, PlacedDecorations, place, place_legend};
+use crate::decorations::{Decorations, PlacedDecorations, place, place_legend, place_scale_bar};
 use crate::png_writer::PngHeader;
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
@@ -91,7 +91,8 @@ impl Picture {
     }
 
     /// The view that the viewport selects. Where it fits all layers, a title keeps a band at the
-    /// top to itself, and so does a legend for which no corner is free, there or on the left.
+    /// top to itself, and so does a legend for which no corner is free, there or on the left, and a
+    /// scale bar at the bottom.
     /// Levels side by side have views of their own.
     ///
     /// # Errors
@@ -105,11 +106,26 @@ impl Picture {
         if let (Some(center_m), Some(px_per_m)) = (center_m, px_per_m) {
             return View::new(size, center_m, px_per_m);
         }
+        let view = self.view_above(0.0)?;
+        let style = self.decoration_style();
+        match place_scale_bar(&self.decorations, &self.scene, &view, &style) {
+            Some(bar) if bar.covered > 0 => self.view_above(bar.bounds.size().y),
+            _ => Ok(view),
+        }
+    }
+
+    /// The view above a band at the bottom.
+    fn view_above(&self, bottom_px: f64) -> Result<View, RenderError> {
+        let Viewport {
+            size,
+            center_m,
+            px_per_m,
+        } = self.viewport;
         let bounds = [self.scene.bounds(), self.backdrop.bounds(&self.scene)];
         let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
         let bounds = self.frame_m.or(bounds);
         let title_px = self.decorations.title_band_px(&self.decoration_style());
-        let plain = self.fit([0.0, title_px], px_per_m, bounds)?;
+        let plain = self.fit([0.0, title_px, bottom_px], px_per_m, bounds)?;
         if center_m.is_some() || px_per_m.is_some() {
             let center_m = center_m.unwrap_or(plain.center_m());
             return View::new(size, center_m, plain.px_per_m());
@@ -120,8 +136,8 @@ impl Picture {
             Some(legend) if legend.covered > 0 => {
                 let gap_px = style.line_px() / 2.0;
                 let room = legend.bounds.size() + Point::new(gap_px, gap_px);
-                let beside = self.fit([room.x, title_px], None, bounds)?;
-                let below = self.fit([0.0, title_px + room.y], None, bounds)?;
+                let beside = self.fit([room.x, title_px, bottom_px], None, bounds)?;
+                let below = self.fit([0.0, title_px + room.y, bottom_px], None, bounds)?;
                 match beside.px_per_m() >= below.px_per_m() {
                     true => Ok(beside),
                     false => Ok(below),
@@ -144,22 +160,23 @@ impl Picture {
         Ok(header)
     }
 
-    /// The view that fits `bounds` into the picture without bands on the left and at the top, or
-    /// centers it there at a scale.
+    /// The view that fits `bounds` into the picture without bands on the left, at the top and at the
+    /// bottom, or centers it there at a scale.
     fn fit(
         &self,
-        [left_px, top_px]: [f64; 2],
+        [left_px, top_px, bottom_px]: [f64; 3],
         px_per_m: Option<f64>,
         bounds: Option<Bounds<f64>>,
     ) -> Result<View, RenderError> {
         let size = self.viewport.size;
         let free = |px: u32, band_px: f64| (f64::from(px) - band_px).max(1.0) as u32;
-        let (width, height) = (free(size.width(), left_px), free(size.height(), top_px));
+        let width = free(size.width(), left_px);
+        let height = free(size.height(), top_px + bottom_px);
         let all = View::fit(FrameSize::new(width, height)?, bounds)?;
         // The free part of the picture is beside its middle by half of the bands.
         let band = Point::new(
             -f64::from(size.width() - width),
-            f64::from(size.height() - height),
+            f64::from(size.height() - height) - 2.0 * bottom_px,
         );
         let px_per_m = px_per_m.unwrap_or(all.px_per_m());
         View::new(size, all.center_m() + band * (0.5 / px_per_m), px_per_m)
@@ -255,6 +272,22 @@ mod tests {
             let legend = place_legend(&picture.decorations, colors, &view, &style);
             assert_eq!(legend.unwrap().covered, 0, "{side_m:?}");
         }
+    }
+
+    #[test]
+    fn a_scale_bar_hides_no_path() {
+        let mut picture = with_legend(Point::new(12.0, 9.0));
+        picture.decorations.has_legend = false;
+        picture.decorations.has_scale_bar = true;
+        let style = picture.decoration_style();
+        let bar = |view: &View| {
+            place_scale_bar(&picture.decorations, &picture.scene, view, &style).unwrap()
+        };
+        assert!(bar(&picture.view_above(0.0).unwrap()).covered > 0);
+        let view = picture.view().unwrap();
+        assert_eq!(bar(&view).covered, 0);
+        let bounds = view.world_bounds();
+        assert!(bounds.contains(Point::new(0.0, 0.0)) && bounds.contains(Point::new(12.0, 9.0)));
     }
 
     #[test]

@@ -3,13 +3,12 @@
 use guideway_document::Document;
 use guideway_document::decorations::{
     Corner, DecorationStyle, Label, MarkOptions, MarkedKinds, Marks, grid, marks, scale_bar,
-    scale_bar_box,
 };
 use guideway_scene::{DrawList, Scene, Shading, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use super::options::Decorations;
-use super::place_legend::{colors_of, place_legend};
+use super::place_legend::{colors_of, place_legend, place_scale_bar};
 use super::route;
 use super::title::title;
 use super::zones;
@@ -64,13 +63,12 @@ pub(crate) fn place(
             .push("the legend is larger than the picture, so it is only in this report".to_owned()),
         None => {}
     }
-    if decorations.has_scale_bar {
-        let bounds = scale_bar_box(view, style);
-        occupied.push(bounds);
+    if let Some(bar) = place_scale_bar(decorations, scene, view, style) {
+        occupied.push(bar.bounds);
         let mut list = DrawList::default();
         let paper = style.paper.with_opacity(PAPER_OPACITY);
-        list.fill_rectangle(paper, bounds.min, bounds.max);
-        list.append(scale_bar(view, style));
+        list.fill_rectangle(paper, bar.bounds.min, bar.bounds.max);
+        list.append(scale_bar(view, style, bar.corner));
         placed.margin.push((list, "scale bar"));
     }
     let route = decorations.route.as_ref();

@@ -1,4 +1,4 @@
-//! Places the legend in the emptiest corner, and tells if there is no corner without paths.
+//! Places legend and scale bar in the emptiest corners, and tells if no corner is without paths.
 
 use guideway_document::decorations::{Corner, DecorationStyle, legend, scale_bar_box};
 use guideway_scene::density::{ToneMap, ToneScale};
@@ -17,6 +17,37 @@ pub(crate) struct PlacedLegend {
     pub(crate) corner: Corner,
     /// Number of segments of paths that may be below it; `usize::MAX` if another decoration is.
     pub(crate) covered: usize,
+}
+
+/// A scale bar in its corner.
+pub(crate) struct PlacedBar {
+    pub(crate) bounds: Bounds<f64>,
+    pub(crate) corner: Corner,
+    /// Number of segments of paths that may be below it.
+    pub(crate) covered: usize,
+}
+
+/// The place of the scale bar: the lower corner with fewer segments of paths, else the left one.
+/// `None` without a bar.
+pub(crate) fn place_scale_bar(
+    decorations: &Decorations,
+    scene: &Scene,
+    view: &View,
+    style: &DecorationStyle,
+) -> Option<PlacedBar> {
+    if !decorations.has_scale_bar {
+        return None;
+    }
+    let at = |corner| {
+        let bounds = scale_bar_box(view, style, corner);
+        PlacedBar {
+            bounds,
+            corner,
+            covered: segments_in(scene, view, bounds),
+        }
+    };
+    let placed = [Corner::LowerLeft, Corner::LowerRight].map(at);
+    placed.into_iter().min_by_key(|placed| placed.covered)
 }
 
 /// The meaning of the colors of a picture; `None` if they have none. For density, the numbers are
@@ -60,9 +91,8 @@ pub(crate) fn place_legend(
     if let Some(text) = &decorations.title {
         occupied.push(title(text, size, style).1);
     }
-    if decorations.has_scale_bar {
-        occupied.push(scale_bar_box(view, style));
-    }
+    let bar = place_scale_bar(decorations, scene, view, style);
+    occupied.extend(bar.map(|bar| bar.bounds));
     let at = |corner| {
         let (list, bounds) = legend(colors, size, top_px, corner, style)?;
         let is_over = occupied.iter().any(|other| other.intersects(bounds));

@@ -95,7 +95,7 @@ impl CanvasPainter<'_> {
         self.paint_tools(painter);
         self.paint_findings(painter);
         self.paint_gesture(painter);
-        list(scale_bar(&self.view, &style));
+        list(scale_bar(&self.view, &style, Corner::LowerLeft));
         let colors = shown_colors(self.files, self.settings);
         let corner = Corner::UpperLeft;
         let colors =

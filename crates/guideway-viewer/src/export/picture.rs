@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway_document::decorations::{marks, scale_bar};
+use guideway_document::decorations::{Corner, marks, scale_bar};
 use guideway_layout::{UserError, shown_path};
 use guideway_scene::{DrawList, FrameSize, RenderError, Style, View};
 
@@ -63,7 +63,7 @@ impl PictureContent<'_> {
                 list.append(marks.draw(&style, |at_px| at_px));
             }
         }
-        list.append(scale_bar(&self.view, &style));
+        list.append(scale_bar(&self.view, &style, Corner::LowerLeft));
         list
     }
 }
