@@ -10,7 +10,7 @@ use guideway::scene::Table;
 use guideway::script::{self, Applied, AppliedStep, SHOWN_NAMES, Script};
 use serde_json::{Value, json};
 
-use super::error::Exit;
+use super::error::{self, Exit};
 use super::input::{self, Input};
 use super::layout_output::{LayoutOutput, Written, target_parser};
 use super::output::Output;
@@ -106,7 +106,7 @@ fn read_script(path: &Path) -> Result<Script, UserError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let unreadable = |error: io::Error| {
         let remedy = "Name a JSON file with steps";
-        UserError::new("edit-script", error.to_string(), remedy)
+        UserError::new("edit-script", error::unreadable(&error), remedy)
     };
     let script = source.map_err(unreadable);
     let script =

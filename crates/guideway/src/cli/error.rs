@@ -1,6 +1,7 @@
 //! Errors of the command itself, and exit codes. Each crate converts its own errors to
 //! [`UserError`].
 
+use std::io;
 use std::path::Path;
 
 use guideway::layout::{UserError, shown_path};
@@ -20,6 +21,14 @@ pub(crate) fn parser_error(error: &clap::Error) -> UserError {
     let first = message.split("\n\n").next().unwrap_or(message);
     let words: Vec<&str> = first.split_whitespace().collect();
     usage_error(words.join(" "), "See `guideway --help`")
+}
+
+/// Why a file beside the layouts cannot be read.
+pub(crate) fn unreadable(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "the file does not exist".to_owned(),
+        _ => error.to_string(),
+    }
 }
 
 /// An output file that is also an input.

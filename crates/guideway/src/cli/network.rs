@@ -9,7 +9,7 @@ use guideway::layout::{CheckOptions, FindingKind, UserError, check, shown_path};
 use guideway::network::{AnalyzeOptions, BuildOptions, LayerRule, NoteSource, analyze, build};
 use serde_json::{Value, json};
 
-use super::error::Exit;
+use super::error::{Exit, unreadable};
 use super::input::{self, Input};
 use super::layout_output::{LayoutOutput, target_parser};
 use super::output::{Output, save};
@@ -90,7 +90,7 @@ impl Args {
                 let name = shown_path(file);
                 let text = fs::read_to_string(file).map_err(|error| {
                     let remedy = "Name a TOML file; docs/network.md shows one";
-                    UserError::new("map", format!("{name}: {error}"), remedy)
+                    UserError::new("map", format!("{name}: {}", unreadable(&error)), remedy)
                 })?;
                 BuildOptions::from_toml(&text).map_err(|error| {
                     let error = UserError::from(error);

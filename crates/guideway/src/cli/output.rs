@@ -65,6 +65,11 @@ impl Output {
         self.json
     }
 
+    /// Returns `true` if reports for people are left out, but for errors.
+    pub(crate) fn is_quiet(self) -> bool {
+        self.quiet && !self.json
+    }
+
     /// Shows the progress of an operation until the result is dropped.
     pub(crate) fn progress(self, label: impl Into<String>) -> ProgressBar {
         ProgressBar::start(label.into(), !self.quiet && !self.json)
@@ -178,7 +183,7 @@ pub(crate) fn print(bytes: &[u8]) -> Result<(), UserError> {
 
 /// Writes text to standard output, in colors on a terminal, unless `NO_COLOR` is set, or wherever
 /// `CLICOLOR_FORCE` is.
-fn print_for_people(text: &str) -> Result<(), UserError> {
+pub(crate) fn print_for_people(text: &str) -> Result<(), UserError> {
     print_to(&mut anstream::stdout().lock(), paint(text).as_bytes())
 }
 

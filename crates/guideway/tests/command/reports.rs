@@ -72,6 +72,20 @@ fn severities_have_colors_where_they_are_forced() {
 }
 
 #[test]
+fn a_quiet_check_prints_the_errors_that_it_finds() {
+    let folder = tempfile::tempdir().unwrap();
+    let faulty = lif(&folder, |hall| hall["edges"][0]["endNodeId"] = json!("c"));
+    let said = stdout(&on_file(&["check", "-q"], &faulty));
+    assert!(said.starts_with("error: unknown-node (2)"), "{said}");
+    assert!(
+        !said.contains("warning") && !said.contains("took"),
+        "{said}"
+    );
+    let sound = lif(&folder, |_| {});
+    assert_eq!(stdout(&on_file(&["check", "-q"], &sound)), "");
+}
+
+#[test]
 fn info_summarizes_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |_| {});

@@ -8,6 +8,7 @@ use guideway::layout::{Diagnostics, UserError, shown_path};
 use serde::{Deserialize, Serialize};
 
 use super::fingerprint::fingerprint;
+use crate::cli::error::unreadable;
 use crate::cli::input::{relative, resolved};
 use crate::cli::output::{REPORT_VERSION, save_report};
 
@@ -63,7 +64,7 @@ impl Baseline {
             let remedy = "Name a file that `guideway check --write-baseline` wrote";
             UserError::new("baseline", message, remedy)
         };
-        let bytes = fs::read(path).map_err(|error| fail(error.to_string()))?;
+        let bytes = fs::read(path).map_err(|error| fail(unreadable(&error)))?;
         let whole: Whole = serde_json::from_slice(&bytes)
             .map_err(|error| fail(format!("this is no baseline: {error}")))?;
         let Header { report, version } = whole.guideway;

@@ -1,13 +1,13 @@
 //! The report of `check` as a table or JSON.
 
-use guideway::layout::{Diagnostic, FindingKind, UserError, shown_path, shown_text};
+use guideway::layout::{Diagnostic, FindingKind, Severity, UserError, shown_path, shown_text};
 use serde_json::{Value, json};
 
 use super::args::Args;
 use super::findings::{CheckedFile, SeverityCounts, exit};
 use super::fingerprint::fingerprint;
 use super::{clearance, table};
-use crate::cli::output::Output;
+use crate::cli::output::{Output, print_for_people};
 use crate::cli::{input, text};
 
 /// Findings that are gone that the table lists.
@@ -51,6 +51,12 @@ pub(super) fn report(
         "clearance": clearance::json(&args.clearance, files),
         "ms": { "read": times.read_ms, "check": times.check_ms, "total": total_ms },
     });
+    if out.is_quiet() && args.report_file().is_none() {
+        let errors = files
+            .iter()
+            .map(|file| table::findings(file, args.show, Severity::Error));
+        return print_for_people(&errors.collect::<String>());
+    }
     out.report_to(args.report_file(), "check", &body, || {
         let tables = files.iter().map(|file| table::text(file, args.show));
         let mut text: String = tables.collect();

@@ -1,12 +1,12 @@
 //! The findings of a file as a table for people.
 
-use guideway::layout::{FindingKind, shown_path, shown_text};
+use guideway::layout::{FindingKind, Severity, shown_path, shown_text};
 
 use super::findings::{CheckedFile, SeverityCounts};
 use crate::cli::text;
 
-/// The findings of a file by kind, the most severe first, and their number.
-pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
+/// The findings of a file by kind, the most severe first, from a severity on.
+pub(super) fn findings(file: &CheckedFile, shown_per_kind: usize, least: Severity) -> String {
     let found = &file.found;
     let mut text = String::new();
     for kind in FindingKind::of([found]) {
@@ -15,6 +15,9 @@ pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
             severity,
             count,
         } = kind;
+        if severity < least {
+            continue;
+        }
         text += &format!(
             "{severity}: {code} ({})\n  {}\n",
             text::count(count),
@@ -38,6 +41,12 @@ pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
         }
         text.push('\n');
     }
+    text
+}
+
+/// All findings of a file, and their number.
+pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
+    let mut text = findings(file, shown_per_kind, Severity::Info);
     let mut paths = text::counted(file.paths, "path");
     if file.refused > 0 {
         paths += &format!(", {} of them refused", text::count(file.refused));
@@ -45,7 +54,7 @@ pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
     if file.unread.is_some() {
         "not read".clone_into(&mut paths);
     }
-    let counts = SeverityCounts::of(std::iter::once(found)).text();
+    let counts = SeverityCounts::of(std::iter::once(&file.found)).text();
     text += &format!("{}: {paths}, {counts}\n", shown_text(&file.file));
     if let Some(config) = &file.config {
         text += &format!("options of {}\n", shown_path(config));

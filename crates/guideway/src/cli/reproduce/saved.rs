@@ -1,7 +1,7 @@
 //! The files of a run: writes them, and reads a run back.
 
 use std::fs::{self, File};
-use std::io::{BufReader, ErrorKind, Read};
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use guideway::SaveError;
@@ -10,6 +10,7 @@ use guideway_reproduce::report;
 use guideway_reproduce::reproduce::{ResumeError, Run};
 use serde::Deserialize;
 
+use crate::cli::error::unreadable;
 use crate::cli::output;
 
 /// Name of the report, in the JSON answer and in the run file.
@@ -61,10 +62,7 @@ pub(super) fn read(path: &Path) -> Result<Run, UserError> {
     let mut text = String::new();
     File::open(path)
         .and_then(|file| BufReader::new(file.take(MAX_BYTES + 1)).read_to_string(&mut text))
-        .map_err(|problem| match problem.kind() {
-            ErrorKind::NotFound => error("io", "the file does not exist".to_owned()),
-            _ => error("io", problem.to_string()),
-        })?;
+        .map_err(|problem| error("io", unreadable(&problem)))?;
     if text.len() as u64 > MAX_BYTES {
         return Err(error(
             "limit",

@@ -9,6 +9,7 @@ use std::rc::Rc;
 use guideway::layout::{UserError, shown_path};
 
 use super::rules::{ConfigFile, Rules};
+use crate::cli::error::unreadable;
 use crate::cli::input::{relative, resolved};
 
 /// Name of the file.
@@ -88,7 +89,7 @@ impl Config {
             UserError::new("config", message, REMEDY)
         };
         let mut text = String::new();
-        let file = File::open(path).map_err(|error| fail(error.to_string()))?;
+        let file = File::open(path).map_err(|error| fail(unreadable(&error)))?;
         let read = file.take(MAX_BYTES + 1).read_to_string(&mut text);
         read.map_err(|error| fail(error.to_string()))?;
         if text.len() as u64 > MAX_BYTES {
