@@ -28,5 +28,6 @@ mod schema;
 mod several;
 mod site_repository;
 mod support;
+mod tasks;
 #[cfg(unix)]
 mod view;
