@@ -1,5 +1,6 @@
 //! Runs the commands of README.md and docs/first-hour.md as printed, in a folder of their own, and
-//! compares what docs/first-hour.md shows with what they print.
+//! compares what docs/first-hour.md shows with what they print. Those of other pages run on files
+//! with the names that they have.
 //!
 //! `GUIDEWAY_SLOW_COMMANDS=1` runs those, too, that take minutes without optimization.
 
@@ -63,13 +64,22 @@ fn session(page: &str) -> Vec<Step> {
 /// Runs a command by the shell, with this program in its path, `None` if it is left out. `cd`
 /// changes the folder of the commands to come.
 fn run(command: &str, folder: &mut PathBuf) -> Option<Output> {
+    if let Some(name) = command.strip_prefix("cd ") {
+        folder.push(name);
+        return None;
+    }
+    let output = run_in(command, folder)?;
+    // 1 says that `check` or `diff` found something.
+    let is_done = output.status.code().is_some_and(|code| code < 2);
+    assert!(is_done, "{command}: {}", stderr(&output));
+    Some(output)
+}
+
+/// Runs a command in a folder, however it ends.
+fn run_in(command: &str, folder: &Path) -> Option<Output> {
     let is_slow = SLOW.iter().any(|part| command.contains(part));
     let runs_slow = std::env::var_os("GUIDEWAY_SLOW_COMMANDS").is_some();
     if NEVER.iter().any(|begin| command.starts_with(begin)) || (is_slow && !runs_slow) {
-        return None;
-    }
-    if let Some(name) = command.strip_prefix("cd ") {
-        folder.push(name);
         return None;
     }
     let program = Path::new(env!("CARGO_BIN_EXE_guideway"));
@@ -78,14 +88,10 @@ fn run(command: &str, folder: &mut PathBuf) -> Option<Output> {
     let all = std::iter::once(programs).chain(std::env::split_paths(&path));
     let output = Command::new("sh")
         .args(["-c", command])
-        .current_dir(&*folder)
+        .current_dir(folder)
         .env("PATH", std::env::join_paths(all).expect("paths"))
         .output();
-    let output = output.expect("a shell");
-    // 1 says that `check` or `diff` found something.
-    let is_done = output.status.code().is_some_and(|code| code < 2);
-    assert!(is_done, "{command}: {}", stderr(&output));
-    Some(output)
+    Some(output.expect("a shell"))
 }
 
 /// Returns `true` if a text is as printed; `...` stands for anything within a line, and on a line
@@ -154,6 +160,60 @@ fn the_first_hour_prints_what_it_shows() {
             printed.join("\n")
         );
     }
+}
+
+/// Pages with commands, indented, and least number of these.
+const PAGES: [(&str, usize); 4] = [
+    ("docs/command-line.md", 18),
+    ("docs/network.md", 1),
+    ("docs/guide.md", 1),
+    ("examples/site-repository/README.md", 5),
+];
+/// Names that these commands give to a site.
+const SITES: [&str; 7] = ["site", "hall", "annex", "old", "new", "fleet-a", "fleet-b"];
+
+/// The commands of a page, without what the shell does with their output, and without the list of
+/// all commands, which has placeholders.
+fn indented(page: &str) -> impl Iterator<Item = &str> {
+    let commands = page.lines().filter_map(|line| line.strip_prefix("    "));
+    let commands = commands.filter(|line| line.starts_with("guideway ") && !line.contains("   "));
+    commands.filter_map(|line| line.split([';', '|', '>']).next())
+}
+
+#[cfg(unix)]
+#[test]
+fn commands_of_the_pages_have_arguments_that_the_command_knows() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut at = folder.path().to_owned();
+    let site = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/site.lif.json");
+    for name in SITES {
+        fs::copy(&site, at.join(format!("{name}.lif.json"))).unwrap();
+    }
+    for drawing in ["plan.dxf", "annex.dxf"] {
+        let convert = format!("guideway convert site.lif.json {drawing}");
+        run(&convert, &mut at).unwrap();
+    }
+    for (name, least) in PAGES {
+        let text = page(name);
+        let commands: Vec<&str> = indented(&text).collect();
+        assert!(commands.len() >= least, "{} in {name}", commands.len());
+        for command in commands {
+            if let Some(output) = run_in(command, &at) {
+                assert!(
+                    !is_of_arguments(&output),
+                    "{name}: {command}: {}",
+                    stderr(&output)
+                );
+            }
+        }
+    }
+    let wrong = run_in("guideway info --no-such site.lif.json", &at).unwrap();
+    assert!(is_of_arguments(&wrong));
+}
+
+/// Returns `true` if a command ended for its arguments.
+fn is_of_arguments(output: &Output) -> bool {
+    stderr(output).contains("try '--help'")
 }
 
 #[test]
