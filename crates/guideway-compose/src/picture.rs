@@ -160,8 +160,8 @@ impl Picture {
         Ok(header)
     }
 
-    /// The view that fits `bounds` into the picture without bands on the left, at the top and at the
-    /// bottom, or centers it there at a scale.
+    /// The view that fits `bounds` into the picture without bands on the left, at the top and at
+    /// the bottom, or centers it there at a scale.
     fn fit(
         &self,
         [left_px, top_px, bottom_px]: [f64; 3],

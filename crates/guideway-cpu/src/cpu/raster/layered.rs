@@ -29,7 +29,7 @@ struct Layer {
     alone: Option<Stroke>,
 }
 
-/// What a waiting line draws.
+/// The path of a waiting line.
 #[derive(Clone, Copy, Default, PartialEq)]
 struct Stroke {
     path: u32,

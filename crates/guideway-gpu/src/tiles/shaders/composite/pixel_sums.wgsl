@@ -5,7 +5,7 @@
 // import: composite/loop_count.wgsl
 // import: shared/tile.wgsl
 
-// Whether the upper and the lower end of each capsule are ends of a path.
+// True where the upper and the lower end of a capsule are ends of a path.
 var<workgroup> path_ends: array<vec2<bool>, BATCH_LINES>;
 // Red, green, blue and opacity sums per pixel; or the samples of strokes, and those of ends.
 var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
