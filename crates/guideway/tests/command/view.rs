@@ -1,4 +1,4 @@
-//! `view` and `guideway FILE` where the program of the window is not installed.
+//! `view`, `guideway FILE` and `doctor` where the program of the window is not installed.
 
 use std::fs;
 use std::path::Path;
@@ -38,6 +38,33 @@ fn a_file_is_summarized_where_there_is_no_window() {
     let folder = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
     let shown = without_window(folder.path()).arg(site()).output().unwrap();
     assert!(stdout(&shown).contains("LIF 1.0"), "{}", stdout(&shown));
+}
+
+#[test]
+fn doctor_says_how_to_get_what_is_missing() {
+    let folder = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
+    let mut command = without_window(folder.path());
+    let nowhere = folder.path().join("nowhere");
+    command.args(["doctor", "--json"]).env("TMPDIR", &nowhere);
+    let answer = json(&command.output().unwrap(), "doctor");
+    assert!(answer["window"].is_null(), "{answer}");
+    let advice = answer["advice"].as_array().unwrap();
+    let is_said = |words: &str| {
+        advice
+            .iter()
+            .any(|line| line.as_str().unwrap().contains(words))
+    };
+    assert!(is_said("crates/guideway-window"), "{advice:?}");
+    assert!(is_said("nowhere (temporary files)"), "{advice:?}");
+    fs::create_dir(&nowhere).unwrap();
+    fs::write(folder.path().join("guideway-window"), "").unwrap();
+    let answer = json(&command.output().unwrap(), "doctor");
+    assert!(answer["window"].is_string(), "{answer}");
+    let advice = answer["advice"].to_string();
+    assert!(
+        !advice.contains("guideway-window") && !advice.contains("nowhere"),
+        "{advice}"
+    );
 }
 
 #[test]
