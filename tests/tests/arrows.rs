@@ -97,6 +97,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "guideway-window",
         &["guideway", "guideway-bench", "guideway-viewer"],
     ),
+    ("guideway-web", &["guideway"]),
 ];
 
 const SPLINE: &[&str] = &["guideway-spline"];
@@ -140,6 +141,8 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),
     ("pyo3", "guideway-python"),
+    ("wasm-bindgen", "guideway-web"),
+    ("web-time", "guideway-layout"),
 ];
 
 type Dependencies = BTreeMap<String, Vec<String>>;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 use guideway_formats::Progress;
+use guideway_layout::clock::Instant;
 use guideway_scene::{
     Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, View, elapsed_ms,
 };

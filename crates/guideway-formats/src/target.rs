@@ -2,9 +2,8 @@
 
 use std::io::Write;
 use std::path::Path;
-use std::time::SystemTime;
 
-use guideway_layout::Layout;
+use guideway_layout::{Layout, clock};
 
 #[cfg(feature = "arrow")]
 use crate::arrow;
@@ -282,7 +281,7 @@ impl Target {
         progress: &dyn Progress,
     ) -> Result<Losses, WriteProblem> {
         let paths = &WrittenPaths::of(layout, progress);
-        let exported = SystemTime::now();
+        let exported = clock::now();
         #[cfg(feature = "lif")]
         let lif = |version| lif::WriteOptions { version, exported };
         #[cfg(feature = "vda5050")]

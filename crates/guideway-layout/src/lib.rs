@@ -20,6 +20,7 @@
 //! | `user_error`, `near` | the error that the command and the window show, and names it suggests |
 //! | `merge` | joins layouts |
 //! | [`text_format`] | text for people of counts, lengths, names |
+//! | [`clock`] | the time, in a browser too |
 //! | `compare` | differences between two layouts |
 //! | `check` | finds defects of geometry and topology |
 //!
@@ -38,6 +39,7 @@
 mod attribute;
 mod cells;
 mod check;
+pub mod clock;
 mod code;
 mod compare;
 mod diagnostic;

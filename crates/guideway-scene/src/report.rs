@@ -1,7 +1,8 @@
 //! Reports: what a method did with every path, the time of each stage, and its work counters.
 
 use std::fmt;
-use std::time::Instant;
+
+use guideway_layout::clock::Instant;
 
 use crate::color_by::Legend;
 use crate::scene::Scene;

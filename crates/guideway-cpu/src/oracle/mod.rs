@@ -15,9 +15,9 @@ mod stroke;
 mod tests;
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use guideway_layout::RunPoints;
+use guideway_layout::clock::Instant;
 use guideway_scene::{
     Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
     Report, Shading, Stage, Style, View, density, elapsed_ms,

@@ -1,10 +1,10 @@
 //! Applies a script to a layout: all of its steps, or none.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use guideway_document::Document;
 use guideway_formats::ReadOptions;
+use guideway_layout::clock::Instant;
 use guideway_layout::{Layout, UserError};
 use guideway_scene::{SceneOptions, elapsed_ms};
 

@@ -6,9 +6,9 @@
 
 use std::ops::Range;
 use std::sync::Mutex;
-use std::time::Instant;
 
 use bytemuck::cast_slice_mut;
+use guideway_layout::clock::Instant;
 use guideway_scene::density::{ToneMap, ToneScale};
 use guideway_scene::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
 

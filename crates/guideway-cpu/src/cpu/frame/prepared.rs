@@ -1,9 +1,9 @@
 //! Method `cpu` with a prepared scene: draws frames within the memory budget, and applies edits.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use bytemuck::cast_slice;
+use guideway_layout::clock::Instant;
 use guideway_scene::cluster::PendingEdit;
 use guideway_scene::density::ToneScale;
 use guideway_scene::{

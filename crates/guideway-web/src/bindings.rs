@@ -1,0 +1,144 @@
+//! The calls of JavaScript. An error is thrown as JSON with `code`, `message` and `remedy`.
+
+use guideway::formats::Progress;
+use guideway::layout::UserError;
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+use crate::session::{Drawn, Saved, Session};
+
+#[wasm_bindgen]
+extern "C" {
+    /// The worker defines it.
+    #[wasm_bindgen(js_name = guidewayProgress)]
+    fn guideway_progress(share: f64);
+}
+
+/// Progress that the worker hears of.
+struct ToWorker;
+
+impl Progress for ToWorker {
+    fn advance(&self, done: u64, total: u64) {
+        guideway_progress(done as f64 / total.max(1) as f64);
+    }
+}
+
+/// A layout that is open.
+#[wasm_bindgen(js_name = Session)]
+pub struct JsSession(Session);
+
+/// A picture.
+#[wasm_bindgen(js_name = Drawn)]
+pub struct JsDrawn(Drawn);
+
+/// A file that was written.
+#[wasm_bindgen(js_name = Saved)]
+pub struct JsSaved(Saved);
+
+fn thrown(error: UserError) -> JsValue {
+    let UserError {
+        code,
+        message,
+        remedy,
+    } = error;
+    let error = json!({ "code": code, "message": message, "remedy": remedy });
+    JsValue::from_str(&error.to_string())
+}
+
+#[wasm_bindgen(js_class = Session)]
+impl JsSession {
+    /// Opens the bytes of a file.
+    #[wasm_bindgen(constructor)]
+    pub fn new(name: &str, bytes: &[u8]) -> Result<JsSession, JsValue> {
+        let opened = Session::open(name, bytes, &ToWorker);
+        opened.map(Self).map_err(thrown)
+    }
+
+    /// See [`Session::info`].
+    pub fn info(&self) -> String {
+        self.0.info()
+    }
+
+    /// See [`Session::check`].
+    pub fn check(&self, most: usize) -> String {
+        self.0.check(most)
+    }
+
+    /// See [`Session::render`].
+    pub fn render(&mut self, look: &str) -> Result<JsDrawn, JsValue> {
+        self.0.render(look).map(JsDrawn).map_err(thrown)
+    }
+
+    /// See [`Session::png`].
+    pub fn png(&mut self, look: &str) -> Result<Vec<u8>, JsValue> {
+        self.0.png(look).map_err(thrown)
+    }
+
+    /// See [`Session::curves`].
+    pub fn curves(&mut self, look: &str, format: &str) -> Result<Vec<u8>, JsValue> {
+        self.0.curves(look, format).map_err(thrown)
+    }
+
+    /// See [`Session::save`].
+    pub fn save(&self, format: &str) -> Result<JsSaved, JsValue> {
+        self.0.save(format).map(JsSaved).map_err(thrown)
+    }
+
+    /// See [`Session::hit`].
+    pub fn hit(&self, x: f64, y: f64, reach_px: f64) -> String {
+        self.0.hit(x, y, reach_px)
+    }
+
+    /// See [`Session::element`].
+    pub fn element(&self, kind: &str, row: u32) -> Result<String, JsValue> {
+        self.0.element(kind, row).map_err(thrown)
+    }
+
+    /// See [`Session::find`].
+    pub fn find(&self, text: &str, limit: usize) -> String {
+        self.0.find(text, limit)
+    }
+
+    /// See [`Session::query`].
+    pub fn query(&self, text: &str, limit: usize) -> Result<String, JsValue> {
+        self.0.query(text, limit).map_err(thrown)
+    }
+
+    /// See [`Session::route`].
+    pub fn route(&self, ends: &str) -> Result<String, JsValue> {
+        self.0.route(ends).map_err(thrown)
+    }
+
+    /// See [`Session::diff`].
+    pub fn diff(&self, other: &JsSession, most: usize) -> String {
+        self.0.diff(&other.0, most)
+    }
+}
+
+#[wasm_bindgen(js_class = Drawn)]
+impl JsDrawn {
+    /// The report, as JSON.
+    #[wasm_bindgen(getter)]
+    pub fn report(&self) -> String {
+        self.0.report.clone()
+    }
+
+    /// R, G, B, A of each pixel, which are here no more afterwards.
+    pub fn take_rgba(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.0.rgba)
+    }
+}
+
+#[wasm_bindgen(js_class = Saved)]
+impl JsSaved {
+    /// The losses, as JSON.
+    #[wasm_bindgen(getter)]
+    pub fn losses(&self) -> String {
+        self.0.losses.clone()
+    }
+
+    /// The content of the file, which is here no more afterwards.
+    pub fn take_bytes(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.0.bytes)
+    }
+}

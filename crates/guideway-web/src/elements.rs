@@ -1,0 +1,161 @@
+//! Elements as the page shows them: hit test, search, properties, outlines.
+
+use guideway::document::{Column, Element, Index, Query, pick, search};
+use guideway::layout::{Layout, UserError, Value as Cell};
+use guideway::scene::{LineRule, Scene, Table, View};
+use guideway::spline::{Bounds, Point, uniform};
+use serde_json::{Value, json};
+
+use crate::look::usage;
+
+/// Most points of an outline.
+const MAX_POINTS: usize = 4096;
+/// Lines of a segment of an outline.
+const LINES: usize = 16;
+
+/// The place of a hit test.
+pub(crate) struct At<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) index: &'a Index,
+    pub(crate) view: &'a View,
+    pub(crate) rule: LineRule,
+    pub(crate) reach_px: f64,
+    pub(crate) max_candidates: usize,
+}
+
+/// The element at a pixel: a station, then a node, then a path.
+pub(crate) fn hit(at: &At<'_>, x: f64, y: f64) -> Option<Element> {
+    let point_m = at.view.world_from_pixel(Point::new(x, y));
+    place(at, point_m).or_else(|| {
+        let (scale, reach) = (at.view.px_per_m(), at.reach_px);
+        let place = (at.scene, at.index);
+        let hit = pick(place, at.rule, scale, point_m, reach, at.max_candidates)?;
+        Some(Element::Path(hit.path))
+    })
+}
+
+/// The nearest node within reach, or its station.
+fn place(at: &At<'_>, point_m: Point<f64>) -> Option<Element> {
+    let layout = at.scene.layout();
+    let reach_m = at.reach_px / at.view.px_per_m();
+    let spot = Bounds {
+        min: point_m,
+        max: point_m,
+    };
+    let distance_m = |node: &u32| layout.nodes.position_m(*node).distance(point_m);
+    let near = at.index.nodes_in(spot.inflated(reach_m));
+    let near = near.filter(|node| at.scene.shows_level(Table::Nodes.level(layout, *node)));
+    let node = near
+        .take(at.max_candidates)
+        .min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
+    let node = node.filter(|node| distance_m(node) <= reach_m)?;
+    let station = at.index.stations_at(node).next();
+    Some(station.map_or(Element::Node(node), Element::Station))
+}
+
+/// The element of a kind and row.
+pub(crate) fn named(layout: &Layout, kind: &str, row: u32) -> Result<Element, UserError> {
+    let tables = [Table::Paths, Table::Nodes, Table::Stations];
+    let of = tables.into_iter().find(|of| of.element() == kind);
+    let of = of.filter(|of| (row as usize) < of.row_count(layout));
+    let of = of.ok_or_else(|| usage(format!("the layout has no {kind} {row}")))?;
+    Ok(Element::new(of, row))
+}
+
+/// Kind, row, identifier and box of an element.
+pub(crate) fn summary(layout: &Layout, index: &Index, element: Element) -> Value {
+    let (of, row) = element.table_row();
+    let bounds = bounds(layout, index, element);
+    json!({
+        "kind": of.element(),
+        "row": row,
+        "id": element.id(layout),
+        "bounds": bounds.map(|b| [b.min.x, b.min.y, b.max.x, b.max.y]),
+    })
+}
+
+/// The summary of an element, its properties, and its outline as lines of points.
+pub(crate) fn details(layout: &Layout, index: &Index, element: Element) -> Value {
+    let (of, row) = element.table_row();
+    let columns = Column::all(layout, of);
+    let cells = columns.iter().filter_map(|column| {
+        let (value, is_number) = column.with_value(layout, of, row, |value| {
+            let is_number = matches!(value, Cell::Int(_) | Cell::Float(_));
+            (value.to_string(), is_number)
+        })?;
+        let unit = column.unit(layout, of).filter(|_| is_number);
+        Some(json!({ "name": column.name(), "value": value, "unit": unit }))
+    });
+    let mut details = summary(layout, index, element);
+    details["cells"] = cells.collect();
+    details["outline"] = json!(outline(layout, element));
+    details
+}
+
+/// Elements whose identifier contains a text, exact ones first.
+pub(crate) fn find(layout: &Layout, index: &Index, text: &str, limit: usize) -> Value {
+    let found = search(layout, text, limit);
+    let found = found.into_iter().take(limit);
+    found.map(|of| summary(layout, index, of)).collect()
+}
+
+/// Paths for which a condition holds: how many there are, and the first ones.
+pub(crate) fn query(
+    layout: &Layout,
+    index: &Index,
+    text: &str,
+    limit: usize,
+) -> Result<Value, UserError> {
+    let query = Query::parse(text, layout);
+    let query = query.map_err(|error| {
+        let message = format!("the condition, at character {}", error.at);
+        UserError::new("query", message, error.what)
+    })?;
+    let rows = query.rows(layout);
+    let shown = rows.iter().take(limit);
+    let shown: Vec<Value> = shown
+        .map(|row| summary(layout, index, Element::Path(row)))
+        .collect();
+    Ok(json!({ "all": rows.len(), "elements": shown }))
+}
+
+fn bounds(layout: &Layout, index: &Index, element: Element) -> Option<Bounds<f64>> {
+    let at = match element {
+        Element::Path(path) => return index.path_bounds(path),
+        Element::Node(node) => layout.nodes.position_m(node),
+        Element::Station(station) => layout.station_position_m(station)?,
+    };
+    Some(Bounds { min: at, max: at })
+}
+
+/// Lines along the runs of a path, or the one point of another element.
+fn outline(layout: &Layout, element: Element) -> Vec<Vec<[f64; 2]>> {
+    let path = match element {
+        Element::Path(path) => layout.paths.get(path as usize),
+        Element::Node(node) => {
+            let at = layout.nodes.position_m(node);
+            return vec![vec![[at.x, at.y]]];
+        }
+        Element::Station(station) => {
+            let at = layout.station_position_m(station);
+            return at.map(|at| vec![[at.x, at.y]]).into_iter().collect();
+        }
+    };
+    let segments: usize = path.runs().map(|run| run.segments().count()).sum();
+    let lines = (MAX_POINTS / segments.max(1)).clamp(1, LINES);
+    let step = segments.div_ceil(MAX_POINTS).max(1);
+    let runs = path.runs().map(|run| {
+        let last = run.segments().count().saturating_sub(1);
+        let segments = run.segments().enumerate();
+        let shown = segments.filter(|(at, _)| at % step == 0 || *at == last);
+        let points = shown.flat_map(|(at, segment)| {
+            let end = if at == last { lines + 1 } else { lines };
+            (0..end).map(move |i| {
+                let point = uniform::point(&segment, i as f64 / lines as f64);
+                [point.x, point.y]
+            })
+        });
+        points.collect()
+    });
+    runs.collect()
+}

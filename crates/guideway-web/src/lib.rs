@@ -1,0 +1,24 @@
+//! The engine of the page: a layout that is open in a browser, with the calls of the page.
+//!
+//! A [`Session`] holds one layout. Its calls take and return JSON, bytes and pixels, and work in
+//! any program; `bindings` names them for JavaScript, in a build for `wasm32` alone. Errors are
+//! those of the command, word for word.
+//!
+//! | module | content |
+//! |---|---|
+//! | `session` | opens a layout; pictures, findings, routes, differences, files |
+//! | `look` | what a picture shows, as the page asks for it |
+//! | `kept_method` | the render method, which keeps what it prepared for the last scene |
+//! | `elements` | properties, outlines, hit test, search |
+//! | `answers` | layouts, findings, routes and changes as JSON |
+//! | `bindings` | the names of the calls in JavaScript |
+
+mod answers;
+#[cfg(target_arch = "wasm32")]
+mod bindings;
+mod elements;
+mod kept_method;
+mod look;
+mod session;
+
+pub use session::{Drawn, Saved, Session};

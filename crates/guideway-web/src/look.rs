@@ -1,0 +1,149 @@
+//! [`Look`]: what a picture shows, as the page asks for it in JSON.
+
+use std::sync::Arc;
+
+use guideway::compose::{Decorations, MarkedRoute, Picture, Viewport, suitable_widths};
+use guideway::layout::UserError;
+use guideway::scene::density::ToneMap;
+use guideway::scene::{
+    ColorBy, FrameSize, NumberColors, RenderError, Rgba, Scene, SceneOptions, Shading,
+};
+use guideway::spline::Point;
+use serde::Deserialize;
+
+/// Size, view, colors and decorations of a picture. What is left out is as in the command.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
+pub(crate) struct Look {
+    /// Pixels.
+    width: u32,
+    height: u32,
+    /// World point at the center in meters, and pixels per meter; without them all is shown.
+    center: Option<[f64; 2]>,
+    px_per_m: Option<f64>,
+    /// Pixels per point, the scale of texts and lines.
+    px_per_point: Option<f64>,
+    /// Name or id of the only level that is shown.
+    level: Option<String>,
+    color_by: Option<String>,
+    /// RRGGBB; black on white by default.
+    color: Option<String>,
+    background: Option<String>,
+    pub(crate) shade: Shade,
+    arrows: bool,
+    nodes: bool,
+    stations: bool,
+    labels: bool,
+    grid: bool,
+    scale_bar: bool,
+    legend: bool,
+    title: Option<String>,
+    /// Names of two stations or nodes, and the vehicle type, to draw the fastest route between.
+    pub(crate) route: Option<RouteEnds>,
+}
+
+/// The ends of a route.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(crate) struct RouteEnds {
+    pub(crate) from: String,
+    pub(crate) to: String,
+    #[serde(default)]
+    pub(crate) vehicle_type: Option<String>,
+}
+
+/// The value of a pixel.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "camelCase")]
+pub(crate) enum Shade {
+    /// Density where many paths cover most of the picture, else color.
+    Auto,
+    #[default]
+    Color,
+    Density,
+}
+
+/// What decides the scene: two looks with the same key share it.
+pub(crate) type SceneKey = (Option<String>, Option<String>, Rgba, Rgba);
+
+impl Look {
+    pub(crate) fn parse(json: &str) -> Result<Self, UserError> {
+        let look = serde_json::from_str(json);
+        look.map_err(|error| usage(format!("the look of the picture: {error}")))
+    }
+
+    pub(crate) fn scene_key(&self) -> Result<SceneKey, UserError> {
+        let color = rgba(self.color.as_deref(), Rgba::BLACK)?;
+        let background = rgba(self.background.as_deref(), Rgba::WHITE)?;
+        Ok((self.level.clone(), self.color_by.clone(), color, background))
+    }
+
+    /// The options of the scene of a key.
+    pub(crate) fn scene_options((level, color_by, color, background): &SceneKey) -> SceneOptions {
+        SceneOptions {
+            color: Some(*color),
+            color_by: color_by.clone().map(|column| ColorBy { column }),
+            numbers: NumberColors {
+                background: *background,
+                ..NumberColors::default()
+            },
+            level: level.clone(),
+            has_gray_structure: true,
+        }
+    }
+
+    /// The picture of a scene.
+    pub(crate) fn picture(
+        &self,
+        scene: Arc<Scene>,
+        route: Option<MarkedRoute>,
+    ) -> Result<Picture, UserError> {
+        let size = FrameSize::new(self.width, self.height)?;
+        let mut picture = Picture::new(scene, size);
+        picture.viewport = Viewport {
+            size,
+            center_m: self.center.map(|[x, y]| Point::new(x, y)),
+            px_per_m: self.px_per_m,
+        };
+        picture.style.background = rgba(self.background.as_deref(), Rgba::WHITE)?;
+        if self.shade == Shade::Density {
+            picture.style.shading = Shading::Density(ToneMap::Log);
+        }
+        picture.decorations = Decorations {
+            has_grid: self.grid,
+            has_zones: true,
+            has_arrows: self.arrows,
+            has_nodes: self.nodes,
+            has_stations: self.stations,
+            has_labels: self.labels,
+            has_scale_bar: self.scale_bar,
+            has_legend: self.legend || self.shade == Shade::Density,
+            route,
+            title: self.title.clone(),
+            px_per_point: self.px_per_point,
+        };
+        self.suit_widths(&mut picture)?;
+        Ok(picture)
+    }
+
+    /// Suits the widths of lines to what the picture shows.
+    fn suit_widths(&self, picture: &mut Picture) -> Result<(), RenderError> {
+        let is_all_shown = self.px_per_m.is_none();
+        let layout = picture.scene.layout();
+        picture.style.line_rule = suitable_widths(layout, &picture.view()?, is_all_shown);
+        Ok(())
+    }
+}
+
+fn rgba(text: Option<&str>, default: Rgba) -> Result<Rgba, UserError> {
+    let Some(text) = text else {
+        return Ok(default);
+    };
+    let parsed = text.parse::<Rgba>();
+    parsed.map_err(|error| usage(format!("the color `{text}`: {error}")))
+}
+
+/// A call that the page made wrongly.
+pub(crate) fn usage(message: impl Into<String>) -> UserError {
+    UserError::new("usage", message, "Report this fault of the page")
+}

@@ -1,0 +1,274 @@
+//! [`Session`]: one layout that is open, and what the page does with it.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+
+use guideway::compose::{MarkedRoute, NoProgress, Picture, VectorFormat};
+use guideway::document::Index;
+use guideway::formats::{Progress, ReadOptions, Target, WriteError, read_bytes};
+use guideway::layout::{CompareOptions, Layout, Severity, UserError, changes};
+use guideway::network::{Route, RouteOptions, Router};
+use guideway::scene::density::ToneMap;
+use guideway::scene::{LineRule, Scene, Shading, View};
+use guideway::{SaveError, write_png_by};
+use serde_json::{Value, json};
+
+use crate::answers;
+use crate::elements;
+use crate::kept_method::KeptMethod;
+use crate::look::{Look, RouteEnds, SceneKey, Shade, usage};
+
+/// Paths among which the one under the pointer is sought.
+const MAX_CANDIDATES: usize = 100_000;
+
+/// A layout that is open in a page.
+pub struct Session {
+    name: String,
+    pub(crate) layout: Arc<Layout>,
+    index: OnceLock<Index>,
+    scene: Option<(SceneKey, Arc<Scene>)>,
+    method: KeptMethod,
+    /// The view and the widths of the last picture, for hit tests.
+    shown: Option<(View, LineRule)>,
+}
+
+/// A picture: pixels, and what they show as JSON.
+#[derive(Debug)]
+pub struct Drawn {
+    /// R, G, B, A of each pixel, row by row from the top.
+    pub rgba: Vec<u8>,
+    /// View, account of all paths, notes, legend.
+    pub report: String,
+}
+
+/// A file that was written.
+#[derive(Debug)]
+pub struct Saved {
+    /// The content of the file.
+    pub bytes: Vec<u8>,
+    /// What the format cannot hold, a sentence each, as JSON.
+    pub losses: String,
+}
+
+impl Session {
+    /// Opens the bytes of a file; the content decides the format. Error texts call it `name`.
+    /// The finished share goes to `progress`.
+    ///
+    /// # Errors
+    /// When the command would refuse the file too.
+    pub fn open(name: &str, bytes: &[u8], progress: &dyn Progress) -> Result<Self, UserError> {
+        let options = ReadOptions {
+            progress: Some(progress),
+            ..ReadOptions::default()
+        };
+        Ok(Self {
+            name: name.to_owned(),
+            layout: Arc::new(read_bytes(name, bytes, &options)?),
+            index: OnceLock::new(),
+            scene: None,
+            method: KeptMethod::default(),
+            shown: None,
+        })
+    }
+
+    /// Extent, counts, levels, vehicle types, columns and formats to save in, as JSON.
+    pub fn info(&self) -> String {
+        answers::info(&self.name, &self.layout).to_string()
+    }
+
+    /// The findings about the layout, at most `most` of them, and how many there are, as JSON.
+    pub fn check(&self, most: usize) -> String {
+        let found = guideway::check(&self.layout);
+        let mut sorted: Vec<_> = found.iter().collect();
+        sorted.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+        let shown = sorted.iter().take(most);
+        let shown: Vec<Value> = shown
+            .map(|finding| answers::finding(&self.layout, finding))
+            .collect();
+        let count = |severity| found.count_at_least(severity);
+        json!({
+            "errors": count(Severity::Error),
+            "warnings": count(Severity::Warning) - count(Severity::Error),
+            "all": count(Severity::Info),
+            "findings": shown,
+        })
+        .to_string()
+    }
+
+    /// Draws a picture, which `look` describes in JSON.
+    ///
+    /// # Errors
+    /// When the look names what the layout does not have, or the view is out of range.
+    pub fn render(&mut self, look: &str) -> Result<Drawn, UserError> {
+        let (mut look, mut picture) = self.picture(look)?;
+        if look.shade == Shade::Auto {
+            look.shade = Shade::Color;
+            if picture.is_crowded(&self.method, &NoProgress)? {
+                look.shade = Shade::Density;
+                picture.style.shading = Shading::Density(ToneMap::Log);
+                picture.decorations.has_legend = true;
+            }
+        }
+        let (frame, rendered) = picture.render_frame(&self.method, &NoProgress)?;
+        self.shown = Some((rendered.view, picture.style.line_rule));
+        let is_density = look.shade == Shade::Density;
+        Ok(Drawn {
+            rgba: frame.bytes().to_vec(),
+            report: answers::report(&picture, &rendered, is_density).to_string(),
+        })
+    }
+
+    /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// See [`Self::render`].
+    pub fn png(&mut self, look: &str) -> Result<Vec<u8>, UserError> {
+        let (_, picture) = self.picture(look)?;
+        let (size, header) = (picture.viewport.size, picture.png_header()?);
+        let mut bytes = Vec::new();
+        let failed = |problem| guideway::compose::ComposeError::Save(memory_error(problem));
+        write_png_by(&mut bytes, size, &header, failed, |sink| {
+            picture.render(&self.method, &NoProgress, sink)
+        })?;
+        Ok(bytes)
+    }
+
+    /// The picture as curves: `svg` or `pdf`.
+    ///
+    /// # Errors
+    /// See [`Self::render`]; also when it shows density, which curves cannot.
+    pub fn curves(&mut self, look: &str, format: &str) -> Result<Vec<u8>, UserError> {
+        let format = match format {
+            "svg" => VectorFormat::Svg,
+            "pdf" => VectorFormat::Pdf,
+            other => return Err(usage(format!("no format of pictures is called `{other}`"))),
+        };
+        let (_, picture) = self.picture(look)?;
+        let mut bytes = Vec::new();
+        picture.write_vector(format, &mut bytes, |problem| memory_error(problem).into())?;
+        Ok(bytes)
+    }
+
+    /// The layout in a format, such as `lif`.
+    ///
+    /// # Errors
+    /// When no format has this name, or the layout is none that it can hold.
+    pub fn save(&self, format: &str) -> Result<Saved, UserError> {
+        let target = Target::from_id(format)
+            .ok_or_else(|| usage(format!("no format is called `{format}`")))?;
+        let mut bytes = Vec::new();
+        let losses = target.write(&self.layout, &mut bytes);
+        let losses = losses.map_err(|problem| WriteError {
+            path: PathBuf::from(&self.name),
+            problem,
+        })?;
+        let losses: Vec<String> = losses.iter().map(ToString::to_string).collect();
+        Ok(Saved {
+            bytes,
+            losses: json!(losses).to_string(),
+        })
+    }
+
+    /// The element at a pixel of the last picture, as JSON; `null` if there is none.
+    pub fn hit(&self, x: f64, y: f64, reach_px: f64) -> String {
+        let (Some((view, rule)), Some((_, scene))) = (&self.shown, &self.scene) else {
+            return Value::Null.to_string();
+        };
+        let at = elements::At {
+            scene,
+            index: self.index(),
+            view,
+            rule: *rule,
+            reach_px,
+            max_candidates: MAX_CANDIDATES,
+        };
+        let found = elements::hit(&at, x, y);
+        let found = found.map(|element| elements::summary(&self.layout, self.index(), element));
+        json!(found).to_string()
+    }
+
+    /// Properties, place and outline of an element, as JSON.
+    ///
+    /// # Errors
+    /// When the layout has no such element.
+    pub fn element(&self, kind: &str, row: u32) -> Result<String, UserError> {
+        let element = elements::named(&self.layout, kind, row)?;
+        Ok(elements::details(&self.layout, self.index(), element).to_string())
+    }
+
+    /// Elements whose identifier contains a text, as JSON.
+    pub fn find(&self, text: &str, limit: usize) -> String {
+        elements::find(&self.layout, self.index(), text, limit).to_string()
+    }
+
+    /// Paths for which a condition such as `maxSpeed > 1` holds, as JSON.
+    ///
+    /// # Errors
+    /// When the condition cannot be read.
+    pub fn query(&self, text: &str, limit: usize) -> Result<String, UserError> {
+        Ok(elements::query(&self.layout, self.index(), text, limit)?.to_string())
+    }
+
+    /// The fastest route between two stations or nodes, as JSON.
+    ///
+    /// # Errors
+    /// When an end is unknown, or no way leads there.
+    pub fn route(&self, ends: &str) -> Result<String, UserError> {
+        let ends: RouteEnds = serde_json::from_str(ends)
+            .map_err(|error| usage(format!("the ends of the route: {error}")))?;
+        let route = self.find_route(&ends)?;
+        Ok(answers::route(&self.layout, &route).to_string())
+    }
+
+    /// What changed from this layout to another one, as JSON.
+    pub fn diff(&self, other: &Self, most: usize) -> String {
+        let found = changes(&self.layout, &other.layout, &CompareOptions::default());
+        answers::diff(&found, most).to_string()
+    }
+
+    fn index(&self) -> &Index {
+        self.index.get_or_init(|| Index::new(&self.layout))
+    }
+
+    fn find_route(&self, ends: &RouteEnds) -> Result<Route, UserError> {
+        let only = self.layout.paths.vehicle_types().only_name();
+        let vehicle_type = ends.vehicle_type.as_deref().or(only);
+        let router = Router::new(&self.layout, vehicle_type, &RouteOptions::default())?;
+        Ok(router.route(&router.place(&ends.from)?, &router.place(&ends.to)?)?)
+    }
+
+    /// The picture of a look, with the scene of the last one if that is the same.
+    fn picture(&mut self, look: &str) -> Result<(Look, Picture), UserError> {
+        let look = Look::parse(look)?;
+        let key = look.scene_key()?;
+        let kept = self.scene.take().filter(|(of, _)| *of == key);
+        let scene = match kept {
+            Some((_, scene)) => scene,
+            None => {
+                let layout = Arc::clone(&self.layout);
+                Arc::new(Scene::new(layout, &Look::scene_options(&key))?)
+            }
+        };
+        self.scene = Some((key, Arc::clone(&scene)));
+        let route = look.route.as_ref().map(|ends| {
+            let route = self.find_route(ends)?;
+            let paths = route.rows.iter();
+            Ok::<_, UserError>(MarkedRoute {
+                paths: paths.map(|row| (row.path, row.is_backward)).collect(),
+                from: ends.from.clone(),
+                to: ends.to.clone(),
+            })
+        });
+        let picture = look.picture(scene, route.transpose()?)?;
+        Ok((look, picture))
+    }
+}
+
+/// A stream into memory failed: it ran out.
+fn memory_error(problem: io::Error) -> SaveError {
+    SaveError {
+        path: PathBuf::from("memory"),
+        problem,
+    }
+}

@@ -1,0 +1,160 @@
+//! Tests of the engine of the page, without a browser.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
+
+use std::path::Path;
+use std::sync::Arc;
+
+use guideway::compose::{Decorations, NoProgress, Picture, Viewport};
+use guideway::cpu::Cpu;
+use guideway::formats::{ReadOptions, read_bytes};
+use guideway::layout::UserError;
+use guideway::scene::{FrameSize, Scene, SceneOptions};
+use guideway::spline::Point;
+use guideway_web::Session;
+use serde_json::{Value, json};
+
+const SITE: &str = "../guideway/examples/site.lif.json";
+
+fn bytes(path: &str) -> Vec<u8> {
+    std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+fn site() -> Session {
+    Session::open("site.lif.json", &bytes(SITE), &NoProgress).unwrap()
+}
+
+fn parsed(answer: &str) -> Value {
+    serde_json::from_str(answer).unwrap()
+}
+
+fn look() -> Value {
+    json!({
+        "width": 320, "height": 200, "center": [36.0, 8.0], "pxPerM": 12.5,
+        "arrows": true, "stations": true, "labels": true,
+    })
+}
+
+#[test]
+fn picture_is_that_of_the_compositor_also_after_another_view() {
+    let mut session = site();
+    let mut other = look();
+    other["pxPerM"] = json!(3.0);
+    session.render(&other.to_string()).unwrap();
+    let drawn = session.render(&look().to_string()).unwrap();
+
+    let layout = read_bytes("site", &bytes(SITE), &ReadOptions::default()).unwrap();
+    let options = SceneOptions {
+        has_gray_structure: true,
+        ..SceneOptions::default()
+    };
+    let scene = Scene::new(Arc::new(layout), &options).unwrap();
+    let size = FrameSize::new(320, 200).unwrap();
+    let mut picture = Picture::new(Arc::new(scene), size);
+    picture.viewport = Viewport {
+        size,
+        center_m: Some(Point::new(36.0, 8.0)),
+        px_per_m: Some(12.5),
+    };
+    picture.decorations = Decorations {
+        has_zones: true,
+        has_arrows: true,
+        has_stations: true,
+        has_labels: true,
+        ..Decorations::default()
+    };
+    let (frame, _) = picture.render_frame(&Cpu, &NoProgress).unwrap();
+    assert!(drawn.rgba == frame.bytes(), "the pixels differ");
+    let report = parsed(&drawn.report);
+    assert_eq!(
+        (&report["total"], &report["pxPerM"]),
+        (&json!(326), &json!(12.5))
+    );
+}
+
+#[test]
+fn refused_files_are_refused_in_the_words_of_the_command() {
+    let refused = |bytes: &[u8]| -> [UserError; 2] {
+        let error = |of: Result<(), UserError>| of.unwrap_err();
+        let read = read_bytes("bad.json", bytes, &ReadOptions::default());
+        [
+            error(Session::open("bad.json", bytes, &NoProgress).map(drop)),
+            error(read.map(drop).map_err(UserError::from)),
+        ]
+    };
+    for bytes in [&b""[..], b"{", b"\0\0\0", b"<svg", b"hello"] {
+        let [page, command] = refused(bytes);
+        assert_eq!(page, command);
+    }
+}
+
+#[test]
+fn element_is_hit_described_and_found() {
+    let mut session = site();
+    assert_eq!(session.hit(10.0, 10.0, 5.0), "null", "before a picture");
+    session.render(&look().to_string()).unwrap();
+    // The dock lies at (36, 4): 50 pixels below the middle.
+    let hit = parsed(&session.hit(160.0, 150.0, 4.0));
+    assert_eq!(hit["id"], "dock-1-002--dock-1-003");
+    let row = hit["row"].as_u64().unwrap() as u32;
+    let details = parsed(&session.element("path", row).unwrap());
+    let cells = details["cells"].as_array().unwrap();
+    let speed = cells.iter().find(|cell| cell["name"] == "maxSpeed");
+    assert_eq!(speed.unwrap()["value"], "0.3");
+    assert_eq!(speed.unwrap()["unit"], "m/s");
+    let outline = details["outline"][0].as_array().unwrap();
+    assert_eq!(outline.first(), Some(&json!([34.0, 4.0])));
+    assert_eq!(outline.last(), Some(&json!([38.0, 4.0])));
+    let found = parsed(&session.find("dock-1-002--dock-1-003", 5));
+    assert_eq!(found[0]["row"], row);
+    assert!(session.element("path", 9999).is_err());
+    let slow = parsed(&session.query("maxSpeed < 0.5", 3).unwrap());
+    assert!(slow["all"].as_u64() > Some(3) && slow["elements"].as_array().unwrap().len() == 3);
+    assert!(session.query("maxSpeed <", 3).is_err());
+}
+
+#[test]
+fn files_and_pictures_are_those_of_the_library() {
+    let mut session = site();
+    let layout = guideway::open(Path::new(env!("CARGO_MANIFEST_DIR")).join(SITE)).unwrap();
+    for format in ["geojson", "dxf", "opentcs"] {
+        let target = guideway::formats::Target::from_id(format).unwrap();
+        let mut expected = Vec::new();
+        target.write(&layout, &mut expected).unwrap();
+        assert!(
+            session.save(format).unwrap().bytes == expected,
+            "{format} differs"
+        );
+    }
+    assert!(session.save("docx").is_err());
+    assert!(
+        session
+            .png(&look().to_string())
+            .unwrap()
+            .starts_with(b"\x89PNG")
+    );
+    let svg = session.curves(&look().to_string(), "svg").unwrap();
+    assert!(svg.starts_with(b"<svg"));
+    let unchanged = parsed(&session.diff(&site(), 10));
+    assert_eq!(unchanged["changes"], json!([]));
+    let findings = parsed(&session.check(10));
+    assert_eq!(findings["errors"], 0);
+}
+
+#[test]
+fn wrong_looks_are_errors() {
+    let mut session = site();
+    for (key, value) in [
+        ("width", json!(0)),
+        ("colorBy", json!("maxSpeeed")),
+        ("level", json!("roof")),
+        ("background", json!("reddish")),
+        ("shadow", json!(1)),
+        ("pxPerM", json!(-1.0)),
+    ] {
+        let mut look = look();
+        look[key] = value;
+        let error = session.render(&look.to_string()).unwrap_err();
+        assert!(!error.remedy.is_empty(), "{key}: {error}");
+    }
+}
