@@ -5,6 +5,7 @@ mod pack;
 mod prerequisites;
 mod published;
 mod step;
+mod web;
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::Path;
@@ -31,6 +32,9 @@ cargo xtask conformance [--quick] [FORMAT...]
 cargo xtask dist        packages in target/dist/packages: .deb, .tar.xz, checksums, SBOM
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
+cargo xtask web [--test | --check]
+                        the page for browsers, which `guideway share` writes; its tests in
+                        Chromium; whether it is older than its sources
 ";
 
 fn main() -> ExitCode {
@@ -45,6 +49,7 @@ fn main() -> ExitCode {
         ("sanitize", []) => sanitize(),
         ("soak", rest) => soak(rest),
         ("dist", []) => pack::run(),
+        ("web", rest) => web::run(rest),
         ("style", []) => style(""),
         ("style", [word]) => style(word),
         _ => {

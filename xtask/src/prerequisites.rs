@@ -167,18 +167,7 @@ pub(crate) fn software_devices() -> Result<()> {
     apt_install(&packages)
 }
 
-fn apt_install(packages: &[&str]) -> Result<()> {
-    let is_root = command("sh")
-        .args(["-c", "test \"$(id -u)\" = 0"])
-        .succeeds();
-    let sudo: &[&str] = if is_root { &[] } else { &["sudo", "-n"] };
-    let apt = |args: &[&str]| {
-        let words = [sudo, &["apt-get"], args].concat();
-        command(words[0])
-            .args(&words[1..])
-            .env("DEBIAN_FRONTEND", "noninteractive")
-            .run()
-    };
+pub(crate) fn apt_install(packages: &[&str]) -> Result<()> {
     let install = [&["install", "-y", "--no-install-recommends"], packages].concat();
     if apt(&["update", "-q"]).and_then(|()| apt(&install)).is_err() {
         bail!(
@@ -189,4 +178,17 @@ fn apt_install(packages: &[&str]) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Runs `apt-get` as root.
+pub(crate) fn apt(args: &[&str]) -> Result<()> {
+    let is_root = command("sh")
+        .args(["-c", "test \"$(id -u)\" = 0"])
+        .succeeds();
+    let sudo: &[&str] = if is_root { &[] } else { &["sudo", "-n"] };
+    let words = [sudo, &["apt-get"], args].concat();
+    command(words[0])
+        .args(&words[1..])
+        .env("DEBIAN_FRONTEND", "noninteractive")
+        .run()
 }

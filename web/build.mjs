@@ -1,0 +1,63 @@
+// Builds the page: one HTML file with style and script, into which engine and layout are put.
+// Usage: node build.mjs FOLDER PAGE. The whole page goes to FOLDER/guideway.html, its parts go as
+// gzip to PAGE, from where the command takes them.
+
+import { build } from "esbuild";
+import { execFileSync } from "node:child_process";
+import { mkdir, readFile, stat, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { gzipSync } from "node:zlib";
+
+const [folder, pageFolder] = process.argv.slice(2);
+const source = (name) => join(import.meta.dirname, "src", name);
+
+async function bundle(entry, plugins = []) {
+  const built = await build({
+    entryPoints: [source(entry)],
+    bundle: true,
+    minify: true,
+    write: false,
+    format: "iife",
+    target: "es2022",
+    legalComments: "none",
+    // The worker's engine comes by message, never by address.
+    define: { "import.meta.url": '""' },
+    plugins,
+  });
+  return built.outputFiles[0].text;
+}
+
+const worker = await bundle("worker.ts");
+const workerSource = {
+  name: "worker-source",
+  setup({ onResolve, onLoad }) {
+    onResolve({ filter: /^worker-source$/ }, ({ path }) => ({ path, namespace: "worker" }));
+    onLoad({ filter: /.*/, namespace: "worker" }, () => ({ contents: worker, loader: "text" }));
+  },
+};
+// A script must not contain the end of its own element.
+const script = (await bundle("main.ts", [workerSource])).replaceAll("</script", "<\\/script");
+const style = await readFile(source("style.css"), "utf8");
+const page = (await readFile(source("page.html"), "utf8"))
+  .replace("/*STYLE*/", () => style)
+  .replace("/*SCRIPT*/", () => script);
+
+const engineFile = join(folder, "engine.wasm");
+const optimizer = join(import.meta.dirname, "node_modules/.bin/wasm-opt");
+const from = join(import.meta.dirname, "engine/guideway_web_bg.wasm");
+const wasmFeatures = ["--enable-simd", "--enable-bulk-memory", "--enable-nontrapping-float-to-int"];
+const moreFeatures = ["--enable-sign-ext", "--enable-mutable-globals", "--enable-reference-types"];
+const args = [from, "-o", engineFile, "-O1", "--strip-debug", "--strip-producers"];
+const changed = async (file) => (await stat(file).catch(() => ({ mtimeMs: 0 }))).mtimeMs;
+// It takes half a minute, so only a new engine is optimized.
+if ((await changed(engineFile)) < (await changed(from))) {
+  execFileSync(optimizer, [...args, ...wasmFeatures, ...moreFeatures, "--enable-multivalue"]);
+}
+
+// Without the time of day, so that the same sources give the same bytes.
+const packed = gzipSync(await readFile(engineFile), { level: 9 });
+await mkdir(pageFolder, { recursive: true });
+await writeFile(join(pageFolder, "engine.wasm.gz"), packed);
+await writeFile(join(pageFolder, "page.html.gz"), gzipSync(page, { level: 9 }));
+const element = `<script type="text/plain" id="engine">${packed.toString("base64")}</script>`;
+await writeFile(join(folder, "guideway.html"), page.replace("<!--ENGINE-->", () => element));

@@ -1,0 +1,122 @@
+// The answers of the engine, as crates/guideway-web/src/answers.rs and elements.rs write them.
+
+export type Point = [number, number];
+export type Box = [number, number, number, number];
+
+export interface Info {
+  name: string;
+  format: string;
+  formatVersion: string;
+  paths: number;
+  nodes: number;
+  stations: number;
+  refused: number;
+  lengthM: number;
+  bounds: Box | null;
+  levels: { id: string; name: string }[];
+  vehicleTypes: string[];
+  columns: string[];
+  targets: { id: string; name: string; extension: string | null }[];
+  source: string | null;
+}
+
+export interface Reference {
+  kind: "path" | "node" | "station";
+  row: number;
+}
+
+export interface Summary extends Reference {
+  id: string;
+  bounds: Box | null;
+}
+
+export interface Details extends Summary {
+  cells: { name: string; value: string; unit: string | null }[];
+  outline: Point[][];
+}
+
+export interface Finding {
+  code: string;
+  severity: "error" | "warning" | "info";
+  place: string;
+  message: string;
+  remedy: string;
+  element: Reference | null;
+}
+
+export interface Findings {
+  errors: number;
+  warnings: number;
+  all: number;
+  findings: Finding[];
+}
+
+export interface Report {
+  center: Point;
+  pxPerM: number;
+  drawn: number;
+  total: number;
+  notes: string[];
+  density: boolean;
+  legend: { title: string; entries: { label: string; color: string }[] } | null;
+  prepareMs: number;
+  renderMs: number;
+}
+
+export interface Route {
+  lengthM: number;
+  timeS: number;
+  rows: { path: string; row: number; from: string; to: string; endS: number }[];
+}
+
+export interface Diff {
+  counts: { element: string; change: string; count: number }[];
+  changes: {
+    element: string;
+    id: string;
+    newId: string | null;
+    change: string;
+    newRow: number | null;
+    column: string | null;
+    before: string | null;
+    after: string | null;
+  }[];
+  groups: { what: string; example: string }[];
+}
+
+/** What a picture shows: crates/guideway-web/src/look.rs. */
+export interface Look {
+  width: number;
+  height: number;
+  center?: Point;
+  pxPerM?: number;
+  pxPerPoint?: number;
+  level?: string;
+  colorBy?: string;
+  color?: string;
+  background?: string;
+  shade?: "auto" | "color" | "density";
+  arrows?: boolean;
+  nodes?: boolean;
+  stations?: boolean;
+  labels?: boolean;
+  grid?: boolean;
+  scaleBar?: boolean;
+  legend?: boolean;
+  title?: string;
+  route?: { from: string; to: string; vehicleType?: string };
+}
+
+/** What a shared file says beside its layout: crates/guideway/src/cli/share. */
+export interface Shared {
+  name: string;
+  title: string;
+  look: Partial<Look>;
+}
+
+export interface Picture {
+  width: number;
+  height: number;
+  rgba: ArrayBuffer;
+  report: Report;
+}

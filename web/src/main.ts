@@ -1,0 +1,375 @@
+// The page: opens files and the shared layout, joins map, panels and engine.
+
+import type { Details, Finding, Info, Look, Picture, Point, Reference, Shared } from "./answers";
+import { BrokenEngine, Engine, GuidewayError } from "./engine";
+import { GuidewayMap, paintElement } from "./map";
+import { Panels, byId, cells, item } from "./panels";
+import { count, language, meters, t } from "./text";
+
+/** Largest file that fits into the memory of a page beside its layout. */
+const MAX_BYTES = 1_500_000_000;
+const REACH_PX = 8;
+
+const packedEngine = byId("engine").textContent!.trim();
+const shared: Shared | undefined = readShared();
+const engine = new Engine(packedEngine);
+const map = new GuidewayMap(byId<HTMLCanvasElement>("map"));
+const panels = new Panels();
+
+let info: Info | undefined;
+let selected: Details | undefined;
+let hovered: Details | undefined;
+let measured: Point[] | undefined;
+/** Counts what is opened: an answer about another layout is late. */
+let openings = 0;
+
+function readShared(): Shared | undefined {
+  const text = document.getElementById("shared")?.textContent;
+  return text ? JSON.parse(text) : undefined;
+}
+
+function notice(error: unknown): void {
+  const words =
+    error instanceof GuidewayError
+      ? `${error.message}.\n${error.remedy}.`
+      : error instanceof BrokenEngine
+        ? `${t("The engine stopped")} (${error.message}).\n` +
+          t("Not enough memory, or a fault of this page. Open a smaller file, or use the command.")
+        : String(error);
+  byId("notice-text").textContent = words;
+  byId("notice").hidden = false;
+  if (error instanceof BrokenEngine) close();
+}
+
+/** Shows the start again, where a file may be opened. */
+function close(): void {
+  info = undefined;
+  document.body.classList.add("empty");
+  forget();
+  map.reset();
+  byId("start").hidden = shared !== undefined;
+}
+
+function forget(): void {
+  openings++;
+  selected = hovered = measured = undefined;
+  panels.clear();
+}
+
+async function busy<T>(text: string, work: () => Promise<T>): Promise<T | undefined> {
+  byId("busy-text").textContent = text;
+  byId<HTMLProgressElement>("progress").removeAttribute("value");
+  byId("busy").hidden = false;
+  try {
+    return await work();
+  } catch (error) {
+    notice(error);
+    return undefined;
+  } finally {
+    byId("busy").hidden = true;
+  }
+}
+
+async function open(file: File): Promise<void> {
+  byId("notice").hidden = true;
+  if (file.size > MAX_BYTES) {
+    const words = `${file.name} ${t("is larger than this page can hold")}`;
+    notice(new GuidewayError("limit", words, t("Use the command `guideway`")));
+    return;
+  }
+  const opened = await busy(`${file.name}: ${t("reading")}`, async () => {
+    const bytes = await file.arrayBuffer();
+    return engine.call<Info>("open", [file.name, bytes], [bytes]);
+  });
+  if (opened) show(opened);
+}
+
+function show(opened: Info): void {
+  forget();
+  info = opened;
+  document.body.classList.remove("empty");
+  map.reset();
+  byId("start").hidden = true;
+  byId("title").textContent = shared?.title || info.name;
+  document.title = `${shared?.title || info.name} - Guideway`;
+  panels.showInfo(info);
+  const look = shared?.look ?? {};
+  panels.setLook({ shade: "auto", ...look });
+  panels.readLook(map.look);
+  if (look.center && look.pxPerM) {
+    // A shared view shows at least as much as its sender saw.
+    const ratio = Math.min(
+      map.canvas.width / (look.width || map.canvas.width),
+      map.canvas.height / (look.height || map.canvas.height),
+    );
+    map.show({ center: look.center, pxPerM: look.pxPerM * ratio });
+  }
+  void map.refresh();
+}
+
+map.draw = (look) => {
+  if (!info) return Promise.reject(new GuidewayError("usage", "", ""));
+  return engine.call<Picture>("render", [look]);
+};
+map.onreport = (report) => {
+  if (map.look.shade === "auto") {
+    // Once per layout: a view that changed its shading by itself would confuse.
+    const shade = report.density ? "density" : "color";
+    map.look.shade = shade;
+    panels.setLook({ ...map.look, shade });
+  }
+  panels.status(`${count(report.drawn)} / ${count(report.total)} ${t("paths")}`);
+};
+map.onfail = (error) => {
+  if (info) notice(error);
+};
+
+map.overlay = (pen, at) => {
+  const accent = getComputedStyle(document.documentElement).getPropertyValue("--accent");
+  for (const element of [hovered, selected]) {
+    if (element) paintElement(pen, at, element, accent, map.scale);
+  }
+  if (!measured?.length) return;
+  const outline = [measured];
+  const line = { kind: "path", row: 0, id: "", bounds: null, cells: [], outline } as Details;
+  paintElement(pen, at, line, "#d55e00", map.scale);
+};
+
+let isHitting = false;
+map.onpoint = async (x, y, isClick) => {
+  if (!info) return;
+  if (measured) {
+    if (isClick) addPoint(map.world([x, y]));
+    return;
+  }
+  if (isHitting && !isClick) return;
+  isHitting = true;
+  try {
+    const opening = openings;
+    const hit = await engine.call<Reference | null>("hit", [x, y, REACH_PX * map.scale]);
+    const known = [hovered, selected].find((e) => e?.kind === hit?.kind && e?.row === hit?.row);
+    const element = hit ? (known ?? (await detailsOf(hit))) : undefined;
+    if (opening !== openings) return;
+    if (isClick) {
+      selected = element;
+      if (element) panels.tab("layout");
+    }
+    hovered = element;
+    panels.showElement(hovered ?? selected);
+    map.paint();
+  } catch (error) {
+    map.onfail(error);
+  } finally {
+    isHitting = false;
+  }
+};
+
+function detailsOf(of: Reference): Promise<Details> {
+  return engine.call<Details>("element", [of.kind, of.row]);
+}
+
+async function flyTo(of: Reference): Promise<void> {
+  try {
+    selected = await detailsOf(of);
+    hovered = undefined;
+    panels.showElement(selected);
+    if (selected.bounds) map.flyTo(selected.bounds);
+  } catch (error) {
+    notice(error);
+  }
+}
+
+function addPoint(point: Point): void {
+  measured!.push(point);
+  let length = 0;
+  for (let i = 1; i < measured!.length; i++) {
+    const [a, b] = [measured![i - 1]!, measured![i]!];
+    length += Math.hypot(b[0] - a[0], b[1] - a[1]);
+  }
+  panels.status(`${meters(length)} (${point.map((value) => value.toFixed(2)).join(", ")})`);
+  map.paint();
+}
+
+function setMeasuring(isOn: boolean): void {
+  measured = isOn ? [] : undefined;
+  byId("measure").setAttribute("aria-pressed", String(isOn));
+  panels.status(isOn ? t("Click points to measure; Escape ends.") : "");
+  map.paint();
+}
+
+async function find(text: string): Promise<void> {
+  panels.showFound([], "");
+  if (!info || !text.trim()) return;
+  try {
+    if (/[<>=~]|\b(and|or|not|in)\b/.test(text)) {
+      const found = await engine.call<{ all: number; elements: Details[] }>("query", [text, 100]);
+      panels.showFound(found.elements, `${count(found.all)} ${t("found")}`, flyTo);
+    } else {
+      const found = await engine.call<Details[]>("find", [text, 100]);
+      panels.showFound(found, `${count(found.length)} ${t("found")}`, flyTo);
+    }
+  } catch (error) {
+    if (!(error instanceof GuidewayError)) throw error;
+    panels.showFound([], `${error.message}: ${error.remedy}`);
+  }
+}
+
+async function showRoute(): Promise<void> {
+  const [from, to] = ["from", "to"].map((id) => byId<HTMLInputElement>(id).value.trim());
+  const vehicleType = byId<HTMLSelectElement>("vehicle-type").value || undefined;
+  const ends = { from: from!, to: to!, ...(vehicleType ? { vehicleType } : {}) };
+  try {
+    const route = await engine.call<{ lengthM: number; timeS: number }>("route", [ends]);
+    byId("route-text").textContent = `${meters(route.lengthM)}, ${count(route.timeS)} s`;
+    map.look.route = ends;
+  } catch (error) {
+    if (!(error instanceof GuidewayError)) throw error;
+    byId("route-text").textContent = `${error.message}. ${error.remedy}`;
+    delete map.look.route;
+  }
+  void map.refresh();
+}
+
+async function check(): Promise<void> {
+  if (!info || panels.hasFindings) return;
+  const found = await busy(t("checking"), () =>
+    engine.call<{ errors: number; warnings: number; all: number; findings: Finding[] }>("check", [
+      500,
+    ]),
+  );
+  if (found) panels.showFindings(found, (of) => void flyTo(of));
+}
+
+async function compare(file: File): Promise<void> {
+  const found = await busy(`${file.name}: ${t("reading")}`, async () => {
+    const bytes = await file.arrayBuffer();
+    return engine.call<import("./answers").Diff>("diff", [file.name, bytes, 300], [bytes]);
+  });
+  if (found) panels.showChanges(found);
+}
+
+function download(name: string, bytes: ArrayBuffer): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+function stem(): string {
+  return info!.name.replace(/\.[^/]*$/, "") || "layout";
+}
+
+async function savePicture(format: string): Promise<void> {
+  const { width, height } = map.canvas;
+  const look: Look = { ...map.look, width, height, pxPerPoint: map.scale, ...map.view };
+  // Curves show colors alone.
+  if (format !== "png") look.shade = "color";
+  const call = format === "png" ? "png" : "curves";
+  const bytes = await busy(t("Picture"), () => engine.call<ArrayBuffer>(call, [look, format]));
+  if (bytes) download(`${stem()}.${format}`, bytes);
+}
+
+async function saveAs(target: { id: string; name: string; extension: string | null }) {
+  type Saved = { bytes: ArrayBuffer; losses: string[] };
+  const saved = await busy(target.name, () => engine.call<Saved>("save", [target.id]));
+  if (!saved) return;
+  download(stem() + (target.extension ?? `.${target.id}.json`), saved.bytes);
+  const losses = saved.losses.join("; ");
+  byId("losses").textContent = losses && `${t("not in the file")}: ${losses}`;
+}
+
+function connect(): void {
+  const chosen = byId<HTMLInputElement>("file");
+  for (const id of ["open", "choose"]) byId(id).onclick = () => chosen.click();
+  chosen.onchange = () => {
+    if (chosen.files?.[0]) void open(chosen.files[0]);
+    chosen.value = "";
+  };
+  const other = byId<HTMLInputElement>("other-file");
+  byId("compare").onclick = () => other.click();
+  other.onchange = () => {
+    if (other.files?.[0]) void compare(other.files[0]);
+    other.value = "";
+  };
+  addEventListener("dragover", (event) => {
+    event.preventDefault();
+    byId("start").classList.add("over");
+  });
+  addEventListener("dragleave", () => byId("start").classList.remove("over"));
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    byId("start").classList.remove("over");
+    const file = event.dataTransfer?.files[0];
+    if (file && !shared) void open(file);
+  });
+  byId("fit").onclick = () => map.fit();
+  byId("zoom-in").onclick = () => map.zoom(1.5);
+  byId("zoom-out").onclick = () => map.zoom(1 / 1.5);
+  byId("measure").onclick = () => setMeasuring(!measured);
+  byId("cancel").onclick = () => {
+    engine.restart(t("Cancel"));
+    close();
+  };
+  byId("notice-close").onclick = () => (byId("notice").hidden = true);
+  byId<HTMLInputElement>("query").oninput = (event) =>
+    void find((event.target as HTMLInputElement).value);
+  byId<HTMLFormElement>("route").onsubmit = (event) => {
+    event.preventDefault();
+    void showRoute();
+  };
+  byId<HTMLFormElement>("route").onreset = () => {
+    delete map.look.route;
+    byId("route-text").textContent = "";
+    void map.refresh();
+  };
+  for (const button of document.querySelectorAll<HTMLElement>("[data-picture]")) {
+    button.onclick = () => void savePicture(button.dataset["picture"]!);
+  }
+  panels.onlook = () => {
+    panels.readLook(map.look);
+    void map.refresh();
+  };
+  panels.ontab = (tab) => {
+    if (tab === "findings") void check();
+  };
+  panels.ontarget = (target) => void saveAs(target);
+  addEventListener("keydown", (event) => {
+    const isTyping = event.target instanceof HTMLInputElement;
+    if (event.key === "Escape") {
+      setMeasuring(false);
+      selected = hovered = undefined;
+      panels.showElement(undefined);
+    } else if (event.key === "/" && !isTyping) {
+      event.preventDefault();
+      panels.tab("find");
+      byId("query").focus();
+    }
+  });
+  engine.onprogress = (share) => (byId<HTMLProgressElement>("progress").value = share);
+}
+
+async function start(): Promise<void> {
+  document.documentElement.lang = language;
+  panels.translate();
+  const isDark = shared?.look.background
+    ? parseInt(shared.look.background.slice(0, 2), 16) < 128
+    : matchMedia("(prefers-color-scheme: dark)").matches;
+  panels.setDark(isDark);
+  panels.readLook(map.look);
+  connect();
+  panels.tab("layout");
+  await engine.started;
+  document.documentElement.dataset["ready"] = String(Math.round(performance.now()));
+  if (!shared) return;
+  for (const id of ["open", "start"]) byId(id).hidden = true;
+  const packed = byId("layout").textContent!.trim();
+  const opened = await busy(`${shared.name}: ${t("reading")}`, () =>
+    engine.call<Info>("openPacked", [shared.name, packed]),
+  );
+  if (opened) show(opened);
+}
+
+// For tests, and for those who try things in the console.
+Object.assign(window, { guideway: { engine, map, open, cells, item } });
+start().catch(notice);

@@ -1,0 +1,257 @@
+// Tests of the page in Chromium. Usage: node web/tests/browser.mjs, from the top of the repository,
+// after `cargo xtask web` and a build of the command. Pictures of the page go to target/web/shots.
+
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
+import { basename, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const command = resolve(process.env["GUIDEWAY"] ?? "target/debug/guideway");
+const folder = resolve("target/web/tests");
+const shots = resolve("target/web/shots");
+const pageUrl = pathToFileURL(resolve("target/web/guideway.html")).href;
+const site = resolve("crates/guideway/examples/site.lif.json");
+for (const made of [folder, shots]) mkdirSync(made, { recursive: true });
+
+const guideway = (...args) => execFileSync(command, args, { stdio: "pipe" });
+const browser = await chromium.launch({
+  executablePath: process.env["GUIDEWAY_CHROMIUM"] ?? "/usr/bin/chromium",
+  args: ["--no-sandbox"],
+});
+
+/** A page at an address, whose every request beyond the file and its worker is a failure. */
+async function open(url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(120_000);
+  page.on("request", (request) => assert.match(request.url(), /^(file|blob|data):/));
+  page.on("pageerror", (error) => assert.fail(`the page failed: ${error}`));
+  await page.goto(url);
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  return page;
+}
+
+async function load(page, file) {
+  const drawn = await page.evaluate(() => guideway.map.drawn);
+  await page.setInputFiles("#file", file);
+  await page.waitForFunction((before) => guideway.map.drawn > before, drawn);
+}
+
+/** Real files of the formats: the smaller ones, as the command of tests is not optimized. */
+function realFiles() {
+  const all = resolve("../shared/layouts");
+  if (!existsSync(all)) {
+    console.log("SKIPPED: no folder shared/layouts beside the repository");
+    return [];
+  }
+  const found = [];
+  for (const format of readdirSync(all)) {
+    const inside = join(all, format);
+    if (!statSync(inside).isDirectory()) continue;
+    const files = readdirSync(inside, { recursive: true }).map((name) => join(inside, name));
+    const isLayout = (file) => spawnSync(command, ["info", "--quiet", file]).status === 0;
+    const small = files.filter((file) => {
+      const stat = statSync(file);
+      return stat.isFile() && stat.size < 2_000_000 && !/\.(md|txt)$/.test(file);
+    });
+    small.sort((a, b) => statSync(b).size - statSync(a).size);
+    found.push(...small.filter(isLayout).slice(0, 2));
+  }
+  return found;
+}
+
+/** The size and the compressed pixels of a PNG file: the same pixels have the same bytes. Its texts
+ * name the view, whose last digit may differ: sine and cosine are others in a browser. */
+function pixels(png) {
+  const parts = [];
+  for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
+    const kind = png.toString("latin1", at + 4, at + 8);
+    const end = at + 8 + png.readUInt32BE(at);
+    if (kind === "IHDR" || kind === "IDAT") parts.push(png.subarray(at + 8, end));
+  }
+  return Buffer.concat(parts);
+}
+
+const isSame = (a, b) => pixels(a).equals(pixels(b));
+
+async function pngOf(page, look) {
+  const text = await page.evaluate(async (look) => {
+    const bytes = new Uint8Array(await guideway.engine.call("png", [look]));
+    let text = "";
+    for (const byte of bytes) text += String.fromCharCode(byte);
+    return btoa(text);
+  }, look);
+  return Buffer.from(text, "base64");
+}
+
+const marks = { arrows: true, nodes: true, stations: true, labels: true, scaleBar: true };
+const markArgs = ["--arrows", "--nodes", "--stations", "--labels", "--scale-bar"];
+
+async function picturesAreThoseOfTheCommand() {
+  const arrow = join(folder, "site.arrow");
+  guideway("convert", site, arrow, "--quiet");
+  const page = await open(pageUrl);
+  for (const file of [site, arrow, ...realFiles()]) {
+    await load(page, file);
+    const size = { width: 640, height: 400 };
+    const expected = join(folder, "expected.png");
+    const fixed = ["--size", "640x400", "--method", "cpu", "--shade", "color"];
+    guideway("render", file, "-o", expected, "--quiet", ...fixed, ...markArgs);
+    const made = await pngOf(page, { ...size, ...marks });
+    if (!isSame(made, readFileSync(expected))) {
+      writeFileSync(join(folder, "made.png"), made);
+      assert.fail(`${file}: the picture differs: ${folder}/made.png, expected.png`);
+    }
+    console.log(`same picture: ${basename(file)}`);
+  }
+  const near = { center: [36, 8], pxPerM: 25, colorBy: "maxSpeed", legend: true };
+  await load(page, site);
+  const made = await pngOf(page, { width: 800, height: 500, ...near });
+  const args = ["--center", "36,8", "--scale", "25", "--color-by", "maxSpeed", "--legend"];
+  const expected = join(folder, "near.png");
+  guideway("render", site, "-o", expected, "--quiet", "--size", "800x500", ...args);
+  assert.ok(isSame(made, readFileSync(expected)), "the near picture differs");
+  // The comparison must fail where the view differs.
+  const other = await pngOf(page, { width: 800, height: 500, ...near, pxPerM: 25.5 });
+  assert.ok(!isSame(other, readFileSync(expected)), "another view has the same picture");
+  await page.context().close();
+}
+
+async function refusedFilesAreRefusedInTheWordsOfTheCommand() {
+  const page = await open(pageUrl);
+  const cases = { "empty.json": "", "cut.lif.json": '{"layouts": [', "notes.txt": "hello" };
+  for (const [name, text] of Object.entries(cases)) {
+    const file = join(folder, name);
+    writeFileSync(file, text);
+    const said = spawnSync(command, ["info", name, "--json"], { cwd: folder });
+    const { message, remedy } = JSON.parse(said.stdout.toString()).error;
+    await page.setInputFiles("#file", file);
+    await page.waitForSelector("#notice:not([hidden])");
+    assert.equal(await page.textContent("#notice-text"), `${message}.\n${remedy}.`);
+    await page.click("#notice-close");
+  }
+  await load(page, site);
+  assert.match(await page.textContent("#facts"), /326/);
+  await page.context().close();
+}
+
+async function handsAndKeysWork() {
+  const page = await open(pageUrl);
+  await page.screenshot({ path: join(shots, "start.png") });
+  await load(page, site);
+  const status = () => document.querySelector("#status").textContent;
+  await page.waitForFunction(`/326 \\/ 326/.test((${status})())`);
+  await page.click("[data-tab=view]");
+  const settle = async (act) => {
+    const drawn = await page.evaluate(() => guideway.map.drawn);
+    await act();
+    await page.waitForFunction((before) => guideway.map.drawn > before, drawn);
+  };
+  await settle(() => page.selectOption("#color-by", "maxSpeed"));
+  await page.screenshot({ path: join(shots, "desktop.png") });
+  await page.click("[data-tab=find]");
+  await page.fill("#query", "dock-1-002--dock-1-003");
+  await page.waitForSelector("#found button");
+  await settle(() => page.click("#found button"));
+  await page.fill("#query", "maxSpeed < 0.5");
+  await page.waitForFunction(() => document.querySelectorAll("#found button").length > 1);
+  await page.click("[data-tab=layout]");
+  assert.match(await page.textContent("#element"), /maxSpeed\s*0\.3 m\/s/);
+  // The zoom keeps the place below the pointer.
+  const box = await page.locator("#map").boundingBox();
+  const corner = [box.x + 200, box.y + 150];
+  const world = () => page.evaluate(() => guideway.map.world([200, 150]));
+  const before = await world();
+  await page.mouse.move(...corner);
+  await settle(() => page.mouse.wheel(0, -300));
+  const after = await world();
+  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 1e-9);
+  await page.focus("#map");
+  const scale = () => page.evaluate(() => guideway.map.view.pxPerM);
+  const wide = await scale();
+  await settle(() => page.keyboard.press("+"));
+  assert.ok((await scale()) > wide);
+  await settle(() => page.keyboard.press("ArrowLeft"));
+  await settle(() => page.keyboard.press("0"));
+  await page.click("#measure");
+  await page.mouse.click(box.x + 100, box.y + 100);
+  await page.mouse.click(box.x + 300, box.y + 100);
+  const length = parseFloat(await page.textContent("#status"));
+  assert.ok(Math.abs(length - 200 / (await scale())) < 0.01, `measured ${length}`);
+  await page.keyboard.press("Escape");
+  await page.click("[data-tab=find]");
+  await page.fill("#from", "dock-1");
+  await page.fill("#to", "nowhere");
+  await page.click("#route button");
+  await page.waitForFunction(() => document.querySelector("#route-text").textContent);
+  await page.click("[data-tab=findings]");
+  await page.waitForFunction(() => document.querySelector("#findings-count").textContent);
+  await page.screenshot({ path: join(shots, "findings.png") });
+  await page.click("[data-tab=export]");
+  const [saved] = await Promise.all([
+    page.waitForEvent("download"),
+    page.click("#targets button >> text=/^DXF$/"),
+  ]);
+  guideway("convert", site, join(folder, "site.dxf"), "--quiet");
+  const [made, expected] = [await saved.path(), join(folder, "site.dxf")];
+  assert.ok(readFileSync(made).equals(readFileSync(expected)), "the DXF file differs");
+  // An engine that stops leaves a page that opens the next file.
+  await page.evaluate(() => guideway.engine.restart("stopped by the test"));
+  await load(page, site);
+  await page.context().close();
+}
+
+async function memoryStaysFlatOverPans() {
+  const page = await open(pageUrl);
+  await load(page, site);
+  const pan = (times) =>
+    page.evaluate(async (times) => {
+      for (let i = 0; i < times; i++) {
+        const look = { ...guideway.map.look, width: 640, height: 400, center: [i % 50, 5] };
+        await guideway.engine.call("render", [{ ...look, pxPerM: 10, shade: "color" }]);
+      }
+      return guideway.engine.call("memory", []);
+    }, times);
+  const first = await pan(50);
+  const last = await pan(450);
+  assert.ok(last <= first, `the engine grew from ${first} to ${last} bytes`);
+  console.log(`engine memory after 500 pans: ${(last / 1e6).toFixed(1)} MB`);
+  await page.context().close();
+}
+
+async function sharedPageOpensFromDisk() {
+  const file = join(folder, "shared.html");
+  guideway("share", site, "-o", file, "--title", "Hall <3>", "--color-by", "maxSpeed", "--quiet");
+  const page = await open(pathToFileURL(file).href);
+  await page.waitForFunction(() => guideway.map.drawn > 0);
+  assert.equal(await page.textContent("#title"), "Hall <3>");
+  assert.equal(await page.inputValue("#color-by"), "maxSpeed");
+  assert.ok(await page.isHidden("#open"), "a shared page opens no other file");
+  const sent = await page.evaluate(() => fetch("https://example.com").then(() => 1, () => 0));
+  assert.equal(sent, 0, "the page may not connect");
+  await page.screenshot({ path: join(shots, "shared.png") });
+  const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true };
+  const dark = { ...phone, isMobile: true, colorScheme: "dark", locale: "de-DE" };
+  const small = await open(pathToFileURL(file).href, dark);
+  await small.waitForFunction(() => guideway.map.drawn > 0);
+  assert.equal(await small.textContent("#fit"), "Alles zeigen");
+  await small.screenshot({ path: join(shots, "phone.png") });
+  guideway("render", site, "-o", file, "--quiet", "--center", "36,8", "--scale", "25");
+  const rendered = await open(pathToFileURL(file).href);
+  await rendered.waitForFunction(() => guideway.map.drawn > 0);
+  assert.deepEqual(await rendered.evaluate(() => guideway.map.view.center), [36, 8]);
+  console.log(`shared page: ${(statSync(file).size / 1e6).toFixed(2)} MB`);
+}
+
+try {
+  await picturesAreThoseOfTheCommand();
+  await refusedFilesAreRefusedInTheWordsOfTheCommand();
+  await handsAndKeysWork();
+  await memoryStaysFlatOverPans();
+  await sharedPageOpensFromDisk();
+} finally {
+  await browser.close();
+}
+console.log(`all tests of the page passed; look at ${shots}`);

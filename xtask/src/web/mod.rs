@@ -1,0 +1,41 @@
+//! `cargo xtask web`: builds the engine for browsers and the page around it, and tests both.
+//!
+//! | module | input | output |
+//! |---|---|---|
+//! | `toolchain` | Debian packages | a compiler with the sources of the standard library |
+//! | `build` | `crates/guideway-web`, `web/` | `crates/guideway/page`, `target/web/guideway.html` |
+//! | `sources` | the files that the page is made of | their hash, which says whether it is stale |
+//!
+//! The tests run the page in Debian's Chromium: `web/tests`.
+
+mod build;
+mod sources;
+mod toolchain;
+
+use anyhow::{Result, bail};
+
+use crate::prerequisites::apt_install;
+use crate::step::{self, cargo, heading};
+
+/// Builds the page; with `--test` also tests it, with `--check` only says whether it is stale.
+pub(crate) fn run(args: &[String]) -> Result<()> {
+    match args {
+        [] => build::page(),
+        [arg] if arg == "--check" => sources::check(),
+        [arg] if arg == "--test" => {
+            build::page()?;
+            test()
+        }
+        _ => bail!("write `web`, `web --test` or `web --check`"),
+    }
+}
+
+/// Opens real files in the page, and compares its pictures with those of the command.
+fn test() -> Result<()> {
+    heading("the page in a browser");
+    if !step::command("chromium").args(["--version"]).succeeds() {
+        apt_install(&["chromium"])?;
+    }
+    cargo(&["build", "--quiet", "--workspace", "--bin", "guideway"]).run()?;
+    step::command("node").args(["web/tests/browser.mjs"]).run()
+}
