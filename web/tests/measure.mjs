@@ -24,7 +24,7 @@ for (const file of files) {
     document.querySelector("#file").addEventListener("change", note, true);
   });
   await page.setInputFiles("#file", resolve(file));
-  await page.waitForFunction(() => guideway.map.drawn > 0);
+  await page.waitForFunction(() => guideway.map.drawn > 0 && guideway.map.view);
   const answer = await page.evaluate(async () => {
     const first = performance.now() - window.chosen;
     const { map, engine } = guideway;

@@ -1,4 +1,4 @@
-//! What is known of a layout, as JSON: its content, findings, routes, changes, pictures.
+//! A layout as JSON: its content, findings, routes, changes, pictures.
 
 use std::collections::BTreeMap;
 

@@ -8,7 +8,7 @@ use guideway::scene::{
     Strip, Style, View,
 };
 
-/// What was prepared last, and for which scene.
+/// The last preparation, with its scene.
 type Slot = Arc<Mutex<Option<(Arc<Scene>, Box<dyn Prepared>)>>>;
 
 /// The method `cpu`; clones share what they prepared.

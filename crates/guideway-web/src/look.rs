@@ -63,7 +63,7 @@ pub(crate) enum Shade {
     Density,
 }
 
-/// What decides the scene: two looks with the same key share it.
+/// The part of a look that decides the scene: looks with the same key share it.
 pub(crate) type SceneKey = (Option<String>, Option<String>, Rgba, Rgba);
 
 impl Look {

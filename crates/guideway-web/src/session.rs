@@ -47,7 +47,7 @@ pub struct Drawn {
 pub struct Saved {
     /// The content of the file.
     pub bytes: Vec<u8>,
-    /// What the format cannot hold, a sentence each, as JSON.
+    /// The losses: a sentence for each thing that the format cannot hold, as JSON.
     pub losses: String,
 }
 
@@ -221,7 +221,7 @@ impl Session {
         Ok(answers::route(&self.layout, &route).to_string())
     }
 
-    /// What changed from this layout to another one, as JSON.
+    /// The changes from this layout to another one, as JSON.
     pub fn diff(&self, other: &Self, most: usize) -> String {
         let found = changes(&self.layout, &other.layout, &CompareOptions::default());
         answers::diff(&found, most).to_string()

@@ -11,7 +11,7 @@ use super::output::Output;
 use super::start::{self, GlobalOptions};
 use super::{
     bench, check, convert, default_command, demo, diff, doctor, edit, generate, info, methods,
-    network, process, render, reproduce, route, shell, view,
+    network, process, render, reproduce, route, share, shell, view,
 };
 
 /// Draws and checks the path layouts of automated guided vehicles.
@@ -39,6 +39,8 @@ enum Command {
     View(view::Args),
     /// Draw layout files as a PNG, SVG or PDF picture
     Render(Box<render::Args>),
+    /// Write layout files into one HTML file that any browser opens
+    Share(share::Args),
     /// Summarize the content of layout files
     Info(info::Args),
     /// Find mistakes in layout files
@@ -92,6 +94,7 @@ fn run(command: &Command, args: &[OsString], out: &Output) -> Result<Exit, UserE
     match command {
         Command::View(view) => view::run(view, args, out),
         Command::Render(args) => render::run(args, out),
+        Command::Share(args) => share::run(args, out),
         Command::Info(args) => info::run(args, out),
         Command::Check(args) => check::run(args, out),
         Command::Diff(args) => diff::run(args, out),

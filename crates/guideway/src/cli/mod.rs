@@ -38,6 +38,7 @@ mod progress_bar;
 mod render;
 mod reproduce;
 mod route;
+mod share;
 mod shell;
 mod start;
 mod stdout;

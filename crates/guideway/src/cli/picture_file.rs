@@ -78,14 +78,7 @@ pub(crate) const OTHER_PATHS: u32 = 0xb4b4_b4ff;
 pub(crate) fn default_name(layout_file: &Path) -> Result<PathBuf, UserError> {
     let name = layout_file.file_name().unwrap_or_default();
     let name = name.to_string_lossy();
-    let known = Target::ALL.iter().flat_map(|target| target.extensions());
-    let lower = name.to_lowercase();
-    let known = known.filter(|extension| lower.ends_with(**extension));
-    let stem = match known.max_by_key(|extension| extension.len()) {
-        Some(extension) => &name[..name.len() - extension.len()],
-        None => name.rsplit_once('.').map_or(&*name, |(stem, _)| stem),
-    };
-    let picture = PathBuf::from(match stem {
+    let picture = PathBuf::from(match stem(&name) {
         "" | "-" => "layout.png".to_owned(),
         stem => format!("{stem}.png"),
     });
@@ -99,6 +92,17 @@ pub(crate) fn default_name(layout_file: &Path) -> Result<PathBuf, UserError> {
         ));
     }
     Ok(picture)
+}
+
+/// The name of a layout file without the extension of its format: `site` for `site.lif.json`.
+pub(crate) fn stem(name: &str) -> &str {
+    let known = Target::ALL.iter().flat_map(|target| target.extensions());
+    let lower = name.to_lowercase();
+    let known = known.filter(|extension| lower.ends_with(**extension));
+    match known.max_by_key(|extension| extension.len()) {
+        Some(extension) => &name[..name.len() - extension.len()],
+        None => name.rsplit_once('.').map_or(name, |(stem, _)| stem),
+    }
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ mod route;
 mod sarif;
 mod schema;
 mod several;
+mod share;
 mod site_repository;
 mod support;
 mod tasks;

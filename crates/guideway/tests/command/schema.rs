@@ -158,6 +158,7 @@ fn answers_of_every_command_conform() {
             "edited.lif.json",
         ],
         &["convert", site, "plan.dxf"],
+        &["share", site, "-o", "page.html"],
         &["network", "plan.dxf", "-o", "network.lif.json", "--split"],
         &[
             "route",

@@ -27,8 +27,8 @@ pub(crate) struct Args {
     /// Layout files; the content decides the format
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     pub(super) inputs: Vec<Input>,
-    /// PNG, SVG or PDF file to write; `-` is standard output [default: the name of the layout with
-    /// .png, unless this file exists]
+    /// PNG, SVG or PDF file to write, or the HTML page of `guideway share`; `-` is standard output
+    /// [default: the name of the layout with .png, unless this file exists]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Format of the picture where the output has no extension, such as `-o - --to svg`
@@ -49,11 +49,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "KIND")]
     aa: Option<String>,
     #[command(flatten)]
-    view: ViewArgs,
+    pub(super) view: ViewArgs,
     #[command(flatten)]
     pub(super) decorations: DecorationArgs,
     #[command(flatten)]
-    style: StyleArgs,
+    pub(super) style: StyleArgs,
     #[command(flatten)]
     resources: ResourceArgs,
 }
@@ -75,8 +75,8 @@ const EACH: &str = "each";
 /// The options of a picture, valid together.
 pub(super) struct RenderOptions {
     pub(super) scene: SceneOptions,
-    viewport: Viewport,
-    style: Style,
+    pub(super) viewport: Viewport,
+    pub(super) style: Style,
     budget: Budget,
 }
 

@@ -16,6 +16,7 @@ use crate::cli::error::{Exit, usage_error};
 use crate::cli::output::Output;
 use crate::cli::picture_output::PictureOutput;
 use crate::cli::progress_bar::plan;
+use crate::cli::share::is_page;
 use crate::cli::{floor_plan, input, output};
 
 /// The maker of the picture.
@@ -25,8 +26,11 @@ enum Renderer {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    let mut options = args.options()?;
     let output_file = args.output()?;
+    if is_page(&output_file) {
+        return args.write_page(&output_file, out);
+    }
+    let mut options = args.options()?;
     let target = PictureOutput::new(&output_file, args.to, args.files(), out)?;
     let world_file = args.world_file(&target)?;
     // Before a large file is read: an unknown method is an error of the arguments.

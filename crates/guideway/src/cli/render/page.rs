@@ -1,0 +1,55 @@
+//! `render -o site.html`: the page of `share` with the view and the colors of a picture.
+
+use std::path::Path;
+
+use guideway::AUTO;
+use guideway::layout::UserError;
+use guideway::scene::{Rgba, Shading};
+
+use super::args::Args;
+use crate::cli::error::{Exit, usage_error};
+use crate::cli::output::Output;
+use crate::cli::share::{self, SharedLook};
+
+impl Args {
+    /// Writes the page.
+    pub(super) fn write_page(&self, output: &Path, out: &Output) -> Result<Exit, UserError> {
+        let options = self.options()?;
+        let layers = [
+            ("--floor-plan", self.view.floor_plan.is_some()),
+            ("--envelope", self.view.envelope.is_some()),
+            ("--route", self.decorations.route.is_some()),
+            ("--world-file", self.world_file),
+            ("--to", self.to.is_some()),
+            ("--method", self.method() != AUTO),
+        ];
+        if let Some((option, _)) = layers.iter().find(|(_, is_given)| *is_given) {
+            return Err(usage_error(
+                format!("{option} does not apply to a page"),
+                format!("Omit {option}, or save the picture as PNG"),
+            ));
+        }
+        let viewport = options.viewport;
+        if viewport.center_m.is_some() != viewport.px_per_m.is_some() {
+            return Err(usage_error(
+                "--center and --scale make a view of a page together",
+                "Give both, such as `--center 12.5,-3 --scale 40`, or neither",
+            ));
+        }
+        let background = Some(options.style.background).filter(|color| *color != Rgba::WHITE);
+        let decorations = self.decorations.decorations(&self.inputs);
+        let look = SharedLook {
+            width: Some(viewport.size.width()),
+            height: Some(viewport.size.height()),
+            center: viewport.center_m.map(|center| [center.x, center.y]),
+            px_per_m: viewport.px_per_m,
+            level: options.scene.level,
+            color_by: options.scene.color_by.map(|by| by.column),
+            shade: (options.style.shading != Shading::Color).then_some("density"),
+            background: background.map(|color| format!("{:06x}", color.to_u32() >> 8)),
+            legend: (self.style.legend || decorations.has_legend).then_some(true),
+        };
+        let title = decorations.title.as_deref();
+        share::write(&self.inputs, output, title, &look, out)
+    }
+}

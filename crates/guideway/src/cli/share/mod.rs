@@ -1,0 +1,15 @@
+//! `guideway share`: layout files as one HTML file that opens in a browser, without a server.
+//!
+//! | module | purpose |
+//! |---|---|
+//! | `args` | files, output, title, view and colors |
+//! | `page` | the page of this build, with a layout put into it |
+//! | `run` | reads the files, writes the page, prints the report |
+
+mod args;
+mod page;
+mod run;
+
+pub(crate) use args::Args;
+pub(crate) use page::SharedLook;
+pub(crate) use run::{is_page, run, write};

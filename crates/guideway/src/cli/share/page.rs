@@ -1,0 +1,127 @@
+//! The page of this build: one HTML file with the engine for browsers, into which a layout is put.
+
+use std::io::{self, Read, Write};
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use flate2::Compression;
+use flate2::read::GzDecoder;
+use flate2::write::GzEncoder;
+use guideway::layout::UserError;
+use serde::Serialize;
+use serde_json::json;
+
+/// The page without engine and layout, as gzip: `cargo xtask web` makes it.
+const PAGE: &[u8] = include_bytes!("../../../page/page.html.gz");
+/// The engine, as gzip.
+const ENGINE: &[u8] = include_bytes!("../../../page/engine.wasm.gz");
+/// The places of the page that engine and layout replace.
+const ENGINE_PLACE: &str = "<!--ENGINE-->";
+const SHARED_PLACE: &str = "<!--SHARED-->";
+/// Largest layout, packed and as text: browsers hold no longer texts.
+const MAX_PACKED_BYTES: usize = 400_000_000;
+
+/// View, colors and decorations in which a page opens: the look of `guideway-web`.
+#[derive(Clone, Debug, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct SharedLook {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) width: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) height: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) center: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) px_per_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) level: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) color_by: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) shade: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) background: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) legend: Option<bool>,
+}
+
+/// Puts a layout into the page. `name` is the name of its file, by which errors and saved files
+/// are named.
+///
+/// # Errors
+/// When the layout is larger than a browser can hold.
+pub(super) fn page(
+    name: &str,
+    title: &str,
+    look: &SharedLook,
+    layout: &[u8],
+) -> Result<Vec<u8>, UserError> {
+    let packed = BASE64_STANDARD.encode(pack(layout));
+    if packed.len() > MAX_PACKED_BYTES {
+        return Err(UserError::new(
+            "limit",
+            format!(
+                "{name}: the layout takes {} bytes in a page, limit {MAX_PACKED_BYTES}",
+                packed.len()
+            ),
+            "Share a part of it, or a picture: `guideway render`",
+        ));
+    }
+    let shared = json!({ "name": name, "title": title, "look": look }).to_string();
+    // A script must not contain the end of its own element.
+    let shared = shared.replace('<', "\\u003c");
+    let engine = script("text/plain", "engine", &BASE64_STANDARD.encode(ENGINE));
+    let layout = script("text/plain", "layout", &packed);
+    let shared = script("application/json", "shared", &shared);
+    let mut page = String::new();
+    let unpacked = GzDecoder::new(PAGE).read_to_string(&mut page);
+    unpacked.map_err(|problem| broken(&problem.to_string()))?;
+    let parts = page.split_once(ENGINE_PLACE).and_then(|(head, rest)| {
+        let (middle, tail) = rest.split_once(SHARED_PLACE)?;
+        Some([head, &engine, middle, &shared, &layout, tail].concat())
+    });
+    let parts = parts.ok_or_else(|| broken("it has no place for a layout"))?;
+    Ok(parts.into_bytes())
+}
+
+fn script(kind: &str, id: &str, content: &str) -> String {
+    format!("<script type=\"{kind}\" id=\"{id}\">{content}</script>\n")
+}
+
+/// Compresses with gzip, which browsers unpack by themselves.
+fn pack(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    let packed: io::Result<Vec<u8>> = encoder.write_all(bytes).and_then(|()| encoder.finish());
+    packed.expect("memory takes every byte")
+}
+
+fn broken(problem: &str) -> UserError {
+    UserError::new(
+        "page",
+        format!("the page of this build is damaged: {problem}"),
+        "Build it again with `cargo xtask web`, and then the command",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn page_holds_engine_and_layout_and_no_script_of_the_names() {
+        let title = "</script><script>alert(1)</script>";
+        let made = page("site.json", title, &SharedLook::default(), b"{}").unwrap();
+        let made = String::from_utf8(made).unwrap();
+        assert!(!made.contains("alert(1)</script"), "the title is no script");
+        assert!(made.contains("connect-src 'none'"));
+        for (id, content) in [("engine", ENGINE), ("layout", &pack(b"{}"))] {
+            let start = format!("id=\"{id}\">");
+            let (_, rest) = made.split_once(&start).unwrap();
+            let (packed, _) = rest.split_once("</script>").unwrap();
+            assert_eq!(BASE64_STANDARD.decode(packed).unwrap(), content);
+        }
+        let mut engine = Vec::new();
+        GzDecoder::new(ENGINE).read_to_end(&mut engine).unwrap();
+        assert!(engine.starts_with(b"\0asm"));
+    }
+}

@@ -1,0 +1,138 @@
+//! Runs `share`: reads the files as every command does, and writes them into the page.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use guideway::formats::Target;
+use guideway::layout::{Layout, UserError, shown_path};
+use guideway::scene::{ColorBy, Scene, SceneOptions};
+use serde_json::json;
+
+use super::args::Args;
+use super::page::{SharedLook, page};
+use crate::cli::error::{Exit, usage_error};
+use crate::cli::input::{self, Input, check_output};
+use crate::cli::output::{Output, is_stdout, print, save};
+use crate::cli::picture_file::stem;
+use crate::cli::{stdout, text};
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    let output = match &args.output {
+        Some(output) => output.clone(),
+        None => default_name(&args.inputs[0].path)?,
+    };
+    if !is_stdout(&output) && !is_page(&output) {
+        return Err(usage_error(
+            format!("{}: a page is an HTML file", shown_path(&output)),
+            format!("Name it {}", shown_path(&output.with_extension("html"))),
+        ));
+    }
+    write(
+        &args.inputs,
+        &output,
+        args.title.as_deref(),
+        &args.look()?,
+        out,
+    )
+}
+
+/// Returns `true` if the extension of a file says that it is a page.
+pub(crate) fn is_page(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    extension.eq_ignore_ascii_case("html") || extension.eq_ignore_ascii_case("htm")
+}
+
+/// Writes layout files into a page.
+///
+/// # Errors
+/// When a file cannot be read, the page cannot show what is asked for, or the output fails.
+pub(crate) fn write(
+    inputs: &[Input],
+    output: &Path,
+    title: Option<&str>,
+    look: &SharedLook,
+    out: &Output,
+) -> Result<Exit, UserError> {
+    match is_stdout(output) {
+        true => stdout::check(out, None)?,
+        false => check_output(inputs.iter().map(|input| input.path.as_path()), output)?,
+    }
+    let (layout, read_ms) = input::read_all(inputs, out)?;
+    let layout = Arc::new(layout);
+    // Names of levels and columns are checked here, and not by the one who opens the page.
+    let options = SceneOptions {
+        color_by: look.color_by.clone().map(|column| ColorBy { column }),
+        level: look.level.clone(),
+        ..SceneOptions::default()
+    };
+    Scene::new(Arc::clone(&layout), &options)?;
+    let progress = out.progress("packing");
+    let (name, bytes) = content(inputs, &layout)?;
+    let title = title.unwrap_or_else(|| name.split('.').next().unwrap_or_default());
+    let page = page(&name, title, look, &bytes)?;
+    let pack_ms = progress.finish();
+    match is_stdout(output) {
+        true => print(&page)?,
+        false => save(output, &page)?,
+    }
+    let body = json!({
+        "output": output.to_string_lossy(),
+        "title": title,
+        "bytes": page.len(),
+        "paths": layout.paths.len(),
+        "ms": { "read": read_ms, "pack": pack_ms, "total": read_ms + pack_ms },
+    });
+    out.beside(Some(output)).report("share", &body, || {
+        format!(
+            "{}: {} in {:.1} MB, which a browser opens without a server\n",
+            shown_path(output),
+            text::counted(layout.paths.len() as u64, "path"),
+            page.len() as f64 / 1e6
+        )
+    })?;
+    Ok(Exit::Clean)
+}
+
+/// The bytes of the layout and the name of its file: the file itself, or Arrow, which holds
+/// everything, of several files or of one that is placed elsewhere.
+fn content(inputs: &[Input], layout: &Layout) -> Result<(String, Vec<u8>), UserError> {
+    let first = &inputs[0];
+    let name = first.path.file_name().unwrap_or_default();
+    let name = name.to_string_lossy().into_owned();
+    let plain = Input {
+        path: first.path.clone(),
+        ..Input::default()
+    };
+    // A pipe can be read once only.
+    if inputs.len() == 1 && *first == plain && first.path.is_file() {
+        let bytes = std::fs::read(&first.path).map_err(|error| {
+            let message = format!("{}: cannot read the file: {error}", shown_path(&first.path));
+            UserError::new("read", message, "Check the file and its permissions")
+        })?;
+        return Ok((name, bytes));
+    }
+    let mut bytes = Vec::new();
+    let written = Target::Arrow.write(layout, &mut bytes);
+    written.map_err(|problem| guideway::formats::WriteError {
+        path: first.path.clone(),
+        problem,
+    })?;
+    Ok((format!("{}.arrow", stem(&name)), bytes))
+}
+
+/// The name of the page of a layout file: `site.html` for `halls/site.lif.json`.
+fn default_name(layout_file: &Path) -> Result<PathBuf, UserError> {
+    let name = layout_file.file_name().unwrap_or_default();
+    let name = name.to_string_lossy();
+    let page = PathBuf::from(match stem(&name) {
+        "" | "-" => "layout.html".to_owned(),
+        stem => format!("{stem}.html"),
+    });
+    match page.exists() {
+        true => Err(usage_error(
+            format!("{} exists", shown_path(&page)),
+            format!("Name the page; `-o {}` replaces it", shown_path(&page)),
+        )),
+        false => Ok(page),
+    }
+}
