@@ -115,7 +115,8 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("svgtypes", "guideway-formats"),
     (
         "serde_json",
-        "guideway-formats guideway-envelope guideway guideway-tests guideway-window xtask",
+        "guideway-formats guideway-envelope guideway guideway-tests guideway-web guideway-window \
+         xtask",
     ),
     ("anstream", "guideway"),
     ("clap", "guideway"),
