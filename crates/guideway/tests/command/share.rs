@@ -67,6 +67,11 @@ fn bad_pages_are_refused_and_leave_no_file() {
             &["render", site, "-o", "a.html", "--envelope", "2x1"],
             "--envelope",
         ),
+        (
+            &["render", site, "-o", "a.html", "--min-px", "3"],
+            "--min-px",
+        ),
+        (&["render", site, "-o", "a.html", "--nodes"], "--nodes"),
     ] {
         let output = command()
             .args(args)

@@ -48,6 +48,20 @@ pub(super) struct DecorationArgs {
 }
 
 impl DecorationArgs {
+    /// The options of which a page has none: it shows the whole site, and has switches.
+    pub(super) fn absent_in_pages(&self) -> [(&'static str, bool); 8] {
+        [
+            ("--route", self.route.is_some()),
+            ("--plain", self.plain),
+            ("--nodes", self.nodes),
+            ("--stations", self.stations),
+            ("--arrows", self.arrows),
+            ("--labels", self.labels),
+            ("--grid", self.grid),
+            ("--scale-bar", self.scale_bar),
+        ]
+    }
+
     /// The decorations that the options select.
     pub(super) fn decorations(&self, inputs: &[Input]) -> Decorations {
         if self.site {

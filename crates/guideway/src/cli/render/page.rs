@@ -18,12 +18,14 @@ impl Args {
         let layers = [
             ("--floor-plan", self.view.floor_plan.is_some()),
             ("--envelope", self.view.envelope.is_some()),
-            ("--route", self.decorations.route.is_some()),
             ("--world-file", self.world_file),
             ("--to", self.to.is_some()),
             ("--method", self.method() != AUTO),
         ];
-        if let Some((option, _)) = layers.iter().find(|(_, is_given)| *is_given) {
+        let decorations = self.decorations.absent_in_pages();
+        let absent = layers.into_iter().chain(decorations);
+        let mut absent = absent.chain(self.style.absent_in_pages());
+        if let Some((option, _)) = absent.find(|(_, is_given)| *is_given) {
             return Err(usage_error(
                 format!("{option} does not apply to a page"),
                 format!("Omit {option}, or save the picture as PNG"),

@@ -95,6 +95,20 @@ impl StyleArgs {
         is_given || self.line_rule == Rule::Thesis
     }
 
+    /// The options of which a page has none.
+    pub(super) fn absent_in_pages(&self) -> [(&'static str, bool); 8] {
+        [
+            ("--width", self.width.is_some()),
+            ("--min-px", self.min_px.is_some()),
+            ("--max-px", self.max_px.is_some()),
+            ("--line-rule", self.line_rule == Rule::Thesis),
+            ("--color", self.color.is_some()),
+            ("--palette", self.palette.is_some()),
+            ("--range", self.range.is_some()),
+            ("--tone", self.tone.is_some()),
+        ]
+    }
+
     /// Returns `true` if neither colors nor shading are asked for.
     pub(super) fn may_show_density(&self) -> bool {
         self.shade.is_none() && self.color_by.is_none() && self.color.is_none()
