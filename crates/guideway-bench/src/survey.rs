@@ -348,7 +348,11 @@ mod tests {
         assert_eq!(survey.cases_left_out, CASES.len() - 1);
         survey.device_limits = vec![("Largest <buffer>".into(), "2 GB".into())];
         let page = page(&survey);
-        roxmltree::Document::parse(&page).expect("well-formed");
+        let options = roxmltree::ParsingOptions {
+            allow_dtd: true,
+            ..roxmltree::ParsingOptions::default()
+        };
+        roxmltree::Document::parse_with_options(&page, options).expect("well-formed");
         for text in [
             "A site of 100,000 paths, zooming",
             "Largest &lt;buffer&gt;",
