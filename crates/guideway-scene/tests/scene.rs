@@ -77,6 +77,31 @@ fn selecting_a_level_hides_the_others() {
 }
 
 #[test]
+fn levels_can_have_their_colors_in_common() {
+    let mut speeds = layout(4);
+    for (row, speed) in [1.0, 2.0, 2.0, 3.0].into_iter().enumerate() {
+        let attributes = &mut speeds.paths.attributes;
+        attributes.set(row, "speed", Value::Float(speed));
+    }
+    // Rows 1 and 2 have the same speed on two levels.
+    let colors = |has_common_colors| {
+        let of_level = |level: &str, row| {
+            let options = SceneOptions {
+                level: Some(level.to_owned()),
+                has_common_colors,
+                ..by("speed")
+            };
+            scene(speeds.clone(), &options).color(row)
+        };
+        [of_level("upper", 1), of_level("ground", 2)]
+    };
+    let [upper, ground] = colors(true);
+    assert_eq!(upper, ground);
+    let [upper, ground] = colors(false);
+    assert_ne!(upper, ground, "each level counts its own paths");
+}
+
+#[test]
 fn own_colors_override_the_default_color() {
     let mut colored = layout(2);
     colored.paths.set_color_rgba(vec![0xff00_00ff, 0]);

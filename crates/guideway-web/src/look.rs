@@ -88,6 +88,7 @@ impl Look {
                 ..NumberColors::default()
             },
             level: level.clone(),
+            has_common_colors: false,
             has_gray_structure: true,
         }
     }

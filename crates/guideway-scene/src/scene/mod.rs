@@ -4,10 +4,12 @@
 //! |---|---|
 //! | `model` | [`Scene`], its options and queries |
 //! | `bounds` | bounding box of the drawn curves |
+//! | `level` | the level that a scene shows |
 //! | `error` | [`SceneError`] |
 
 mod bounds;
 mod error;
+mod level;
 mod model;
 
 pub use error::{NoOpaqueColor, SceneError};

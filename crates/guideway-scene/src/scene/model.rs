@@ -1,13 +1,15 @@
 //! The scene: its options, its queries and the state that edits change.
 
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
-use guideway_layout::{Hulls, Layout, Level, PathRef};
+use guideway_layout::{Hulls, Layout, PathRef};
 use guideway_spline::Bounds;
 use rayon::prelude::*;
 
 use super::bounds::curve_bounds;
 use super::error::{NoOpaqueColor, SceneError};
+use super::level::visible_level;
 use crate::color::Rgba;
 use crate::color_by::{self, ColorBy, Legend};
 use crate::ramp::NumberColors;
@@ -27,6 +29,9 @@ pub struct SceneOptions {
     pub numbers: NumberColors,
     /// Draws only the level with this name or id.
     pub level: Option<String>,
+    /// Chooses the colors of a column by the paths of all levels, so that scenes of single levels
+    /// have them in common.
+    pub has_common_colors: bool,
     /// Draws walls, doors and lanes of humans in gray below the ways of vehicles, unless a column
     /// decides the colors. An edit of the scene does not keep the order.
     pub has_gray_structure: bool,
@@ -119,7 +124,11 @@ impl Scene {
         let base = options.color.unwrap_or(Rgba::BLACK);
         let (mut colors, legend) = match &options.color_by {
             Some(by) => {
-                let resolved = color_by::resolve(&layout, by, &options.numbers, &draw_order);
+                let all = match options.has_common_colors {
+                    true => Cow::Owned(self::draw_order(&layout, &[])),
+                    false => Cow::Borrowed(&draw_order[..]),
+                };
+                let resolved = color_by::resolve(&layout, by, &options.numbers, &all);
                 let (colors, legend) = resolved.map_err(|unknown| SceneError::UnknownColumn {
                     asked: by.column.clone(),
                     known: unknown.known,
@@ -342,20 +351,6 @@ impl Scene {
     }
 }
 
-/// The index of the level of this name or id.
-fn visible_level(layout: &Layout, asked: Option<&str>) -> Result<Option<u32>, SceneError> {
-    let Some(asked) = asked else {
-        return Ok(None);
-    };
-    match layout.level_named(asked) {
-        Some(level) => Ok(Some(level)),
-        None => Err(SceneError::UnknownLevel {
-            asked: asked.to_owned(),
-            known: layout.levels.iter().map(level_label).collect(),
-        }),
-    }
-}
-
 /// Initial state per row: hides the paths of all levels but `level`.
 fn states(layout: &Layout, level: Option<u32>) -> Vec<PathState> {
     if level.is_none() {
@@ -378,14 +373,6 @@ fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
         order.sort_by_key(|&path| rank[path as usize]);
     }
     order
-}
-
-/// A level's id and name, either of which selects it.
-fn level_label(level: &Level) -> String {
-    match &level.name {
-        Some(name) if *name != level.id => format!("{} ({name})", level.id),
-        _ => level.id.clone(),
-    }
 }
 
 fn own_colors(layout: &Layout, base: Rgba) -> Colors {

@@ -158,6 +158,7 @@ impl Args {
                 color_by: self.style.color_by.clone().map(|column| ColorBy { column }),
                 numbers: self.style.numbers(style.background),
                 level: self.view.level.clone(),
+                has_common_colors: false,
                 has_gray_structure: !self.decorations.plain,
             },
             viewport: self.view.viewport()?,

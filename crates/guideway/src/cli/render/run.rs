@@ -128,6 +128,8 @@ fn level_parts(layout: &Arc<Layout>, options: &SceneOptions) -> Result<Vec<Level
     let part = |level: &Level| {
         let options = SceneOptions {
             level: Some(level.id.clone()),
+            // One color means the same on all of them.
+            has_common_colors: true,
             ..options.clone()
         };
         Ok(LevelPart {
