@@ -31,6 +31,7 @@ mod limits;
 mod methods;
 mod network;
 mod output;
+mod part_progress;
 mod picture_file;
 mod picture_output;
 mod process;

@@ -1,6 +1,5 @@
 //! `guideway bench --report`: measures this computer, and writes a page to send.
 
-use std::cell::RefCell;
 use std::path::Path;
 use std::time::Duration;
 
@@ -11,7 +10,7 @@ use guideway_bench::{Outcome, StartError};
 
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::output::{self, Output, REPORT_VERSION};
-use crate::cli::progress_bar::ProgressBar;
+use crate::cli::part_progress::PartProgress;
 use crate::cli::text;
 
 /// Name of the report, in the JSON answer and in the file.
@@ -29,17 +28,12 @@ pub(super) fn run(file: &Path, methods: &[String], out: &Output) -> Result<Exit,
             "Name it so, such as `--report laptop.html`",
         ));
     }
-    let shown: RefCell<Option<ProgressBar>> = RefCell::default();
-    let show = |case: &str| {
-        let mut shown = shown.borrow_mut();
-        // The previous bar ends before the next one starts.
-        *shown = None;
-        *shown = Some(out.progress(case));
-    };
+    let progress = PartProgress::new(out);
+    let show = |case: &str| progress.begin(case);
     let start = |spec: &str| guideway::method(spec).map_err(StartError::new);
     // Ctrl-C ends the process at once: no file is open before the end.
     let mut survey = survey(methods, LIMIT, &start, &Cancel::default(), &show)?;
-    drop(shown);
+    drop(progress);
     survey.device_limits = guideway::device_limits();
     output::save(file, page(&survey).as_bytes())?;
     output::save_report(&json, REPORT, REPORT_VERSION, &survey)?;

@@ -1,6 +1,5 @@
 //! Arguments of `reproduce`; measures, continues or shows a run.
 
-use std::cell::RefCell;
 use std::path::PathBuf;
 
 use guideway::layout::UserError;
@@ -13,7 +12,7 @@ use super::{saved, text};
 use crate::cli::error::Exit;
 use crate::cli::input::check_no_stdout;
 use crate::cli::output::Output;
-use crate::cli::progress_bar::ProgressBar;
+use crate::cli::part_progress::PartProgress;
 use crate::cli::{process, values};
 
 #[derive(Debug, clap::Args)]
@@ -100,15 +99,10 @@ fn measure(
     work: impl FnOnce(Start<'_>, &Cancel, &dyn Fn(&str)) -> Result<Run, UserError>,
 ) -> Result<Run, UserError> {
     let start = |spec: &str| guideway::method(spec).map_err(StartError::new);
-    let shown: RefCell<Option<ProgressBar>> = RefCell::default();
-    let show = |part: &str| {
-        let mut shown = shown.borrow_mut();
-        // The previous bar ends before the next one starts.
-        *shown = None;
-        *shown = Some(out.progress(part));
-    };
+    let progress = PartProgress::new(out);
+    let show = |part: &str| progress.begin(part);
     let run = work(&start, &process::cancel_on_interrupt(), &show)?;
-    drop(shown);
+    drop(progress);
     saved::write_run(&args.out, &run)?;
     if !run.is_whole() {
         out.note("Run it again with --continue to measure the missing parts");
