@@ -11,6 +11,7 @@ use guideway_bench::{Outcome, StartError};
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::output::{self, Output, REPORT_VERSION};
 use crate::cli::part_progress::PartProgress;
+use crate::cli::share::is_page;
 use crate::cli::text;
 
 /// Name of the report, in the JSON answer and in the file.
@@ -21,8 +22,7 @@ const LIMIT: Duration = Duration::from_secs(240);
 /// Measures with these methods. The general ones that run here, if none is named.
 pub(super) fn run(file: &Path, methods: &[String], out: &Output) -> Result<Exit, UserError> {
     let json = file.with_extension("json");
-    let is_page = |ending: &std::ffi::OsStr| ["html", "htm"].map(Some).contains(&ending.to_str());
-    if !file.extension().is_some_and(is_page) {
+    if !is_page(file) {
         return Err(usage_error(
             "the report of a computer is an HTML page",
             "Name it so, such as `--report laptop.html`",

@@ -32,12 +32,6 @@ impl Args {
             ));
         }
         let viewport = options.viewport;
-        if viewport.center_m.is_some() != viewport.px_per_m.is_some() {
-            return Err(usage_error(
-                "--center and --scale make a view of a page together",
-                "Give both, such as `--center 12.5,-3 --scale 40`, or neither",
-            ));
-        }
         let background = Some(options.style.background).filter(|color| *color != Rgba::WHITE);
         let decorations = self.decorations.decorations(&self.inputs);
         let look = SharedLook {

@@ -2,11 +2,9 @@
 
 use std::path::PathBuf;
 
-use guideway::layout::UserError;
 use guideway::spline::Point;
 
 use super::page::SharedLook;
-use crate::cli::error::usage_error;
 use crate::cli::input::{Input, PLACEMENT_HELP};
 use crate::cli::values;
 
@@ -50,17 +48,8 @@ pub(crate) struct Args {
 
 impl Args {
     /// The view and the colors in which the page opens.
-    ///
-    /// # Errors
-    /// When only one of center and scale is given.
-    pub(super) fn look(&self) -> Result<SharedLook, UserError> {
-        if self.center.is_some() != self.scale.is_some() {
-            return Err(usage_error(
-                "--center and --scale make a view together",
-                "Give both, such as `--center 12.5,-3 --scale 40`, or neither",
-            ));
-        }
-        Ok(SharedLook {
+    pub(super) fn look(&self) -> SharedLook {
+        SharedLook {
             center: self.center.map(|center| [center.x, center.y]),
             px_per_m: self.scale,
             level: self.level.clone(),
@@ -68,6 +57,6 @@ impl Args {
             legend: self.color_by.is_some().then_some(true),
             background: self.dark.then(|| "16181d".to_owned()),
             ..SharedLook::default()
-        })
+        }
     }
 }

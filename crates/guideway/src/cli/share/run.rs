@@ -27,13 +27,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             format!("Name it {}", shown_path(&output.with_extension("html"))),
         ));
     }
-    write(
-        &args.inputs,
-        &output,
-        args.title.as_deref(),
-        &args.look()?,
-        out,
-    )
+    let title = args.title.as_deref();
+    write(&args.inputs, &output, title, &args.look(), out)
 }
 
 /// Returns `true` if the extension of a file says that it is a page.
@@ -53,6 +48,12 @@ pub(crate) fn write(
     look: &SharedLook,
     out: &Output,
 ) -> Result<Exit, UserError> {
+    if look.center.is_some() != look.px_per_m.is_some() {
+        return Err(usage_error(
+            "--center and --scale make a view of a page together",
+            "Give both, such as `--center 12.5,-3 --scale 40`, or neither",
+        ));
+    }
     match is_stdout(output) {
         true => stdout::check(out, None)?,
         false => check_output(inputs.iter().map(|input| input.path.as_path()), output)?,
