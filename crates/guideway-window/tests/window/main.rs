@@ -44,7 +44,7 @@ fn assert_equals_render(picture: &Path, file: &Path, rendered: &Path) {
     let status = session::command()
         .args(["render", "--quiet", "--size", &format!("{width}x{height}")])
         // The color of paths in the window.
-        .args(["--color", "5a6b7f"])
+        .args(["--path-color", "5a6b7f"])
         .args(["--min-px", &format!("{}", 1.5 * factor)])
         .args(["--max-px", &format!("{}", 12.0 * factor)])
         .arg(file)

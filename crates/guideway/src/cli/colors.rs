@@ -1,4 +1,86 @@
-//! Colors of a report on a terminal: the words that begin its lines, such as `error:` and `hint:`.
+//! Colors of a report on a terminal: the words that begin its lines, such as `error:` and `hint:`,
+//! and `--color`, which says where they have colors.
+
+use std::ffi::{OsStr, OsString};
+
+use anstream::ColorChoice;
+use clap::ValueEnum;
+use clap::builder::{EnumValueParser, PossibleValue, TypedValueParser};
+use clap::error::{ContextKind, ContextValue};
+use guideway::scene::Rgba;
+
+// Documented variants would be a list in each help.
+/// Where words have colors: `Auto` is on a terminal, unless `NO_COLOR` is set, and wherever
+/// `CLICOLOR_FORCE` is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum When {
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+impl When {
+    /// The parser of `--color`. A color in its place belongs to `--path-color`.
+    pub(super) fn parser() -> impl TypedValueParser<Value = Self> {
+        WhenParser(EnumValueParser::new())
+    }
+
+    /// The value in arguments that do not parse; their error or help has colors too.
+    pub(super) fn in_arguments(args: &[OsString]) -> Self {
+        let following = args.iter().skip(1).map(Some).chain([None]);
+        let mut values = args.iter().zip(following).filter_map(|(arg, next)| {
+            let arg = arg.to_str()?;
+            let value = match arg.strip_prefix("--color=") {
+                Some(value) => Some(value),
+                None if arg == "--color" => next?.to_str(),
+                None => None,
+            };
+            Self::from_str(value?, false).ok()
+        });
+        values.next().unwrap_or_default()
+    }
+
+    /// Holds for all that this process prints from now on.
+    pub(super) fn apply(self) {
+        let choice = match self {
+            Self::Auto => ColorChoice::Auto,
+            Self::Always => ColorChoice::Always,
+            Self::Never => ColorChoice::Never,
+        };
+        choice.write_global();
+    }
+}
+
+#[derive(Clone)]
+struct WhenParser(EnumValueParser<When>);
+
+impl TypedValueParser for WhenParser {
+    type Value = When;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<When, clap::Error> {
+        self.0
+            .parse_ref(command, argument, value)
+            .map_err(|mut error| {
+                let text = value.to_string_lossy();
+                if text.parse::<Rgba>().is_ok() {
+                    let tip = format!("the color of paths is `--path-color {text}`");
+                    let tip = ContextValue::StyledStrs(vec![tip.into()]);
+                    error.insert(ContextKind::Suggested, tip);
+                }
+                error
+            })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        self.0.possible_values()
+    }
+}
 
 /// The words and their colors (ECMA-48, select graphic rendition): bold red, yellow, blue, green.
 const WORDS: [(&str, &str); 5] = [

@@ -2,7 +2,7 @@
 //! the program of the window.
 
 use std::borrow::Cow;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -10,6 +10,7 @@ use clap::Parser;
 use guideway::formats::Format;
 use guideway::layout::{UserError, shown_lines};
 
+use super::colors::When;
 use super::error::{ERROR, Exit, parser_error};
 use super::output::Output;
 use super::{limits, process};
@@ -24,6 +25,15 @@ pub(super) struct GlobalOptions {
     /// Print only errors
     #[arg(long, short, global = true)]
     quiet: bool,
+    /// Color severities, hints and help: `auto` on a terminal, unless NO_COLOR is set
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHEN",
+        default_value = "auto",
+        value_parser = When::parser()
+    )]
+    color: When,
     /// Set a limit on what is read or written; can be repeated. Names: file-bytes, output-bytes,
     /// paths, control-points, curve-points, elements, text-bytes, depth, coordinate (in meters)
     #[arg(long, global = true, value_name = "NAME=VALUE", value_parser = limits::setting)]
@@ -43,7 +53,10 @@ pub(super) struct GlobalOptions {
 /// Parses the arguments, or prints help, version or the error of the parser and returns the exit
 /// code.
 pub(super) fn parse<C: Parser>(args: Vec<OsString>) -> Result<C, ExitCode> {
-    C::try_parse_from(args).map_err(|error| exit_from_parser(&error))
+    C::try_parse_from(&args).map_err(|error| {
+        When::in_arguments(&args).apply();
+        exit_from_parser(&error, &args)
+    })
 }
 
 /// Runs a task with the options of every command. Returns its exit code.
@@ -51,6 +64,7 @@ pub(super) fn run(
     options: &GlobalOptions,
     task: impl FnOnce(&Output) -> Result<Exit, UserError>,
 ) -> ExitCode {
+    options.color.apply();
     let out = Output::new(options.json, options.quiet);
     if options.json {
         out_of_memory::report_as_json();
@@ -67,8 +81,8 @@ pub(super) fn run(
 }
 
 /// Prints help, version or the error of the parser.
-fn exit_from_parser(error: &clap::Error) -> ExitCode {
-    let wants_json = std::env::args_os().any(|arg| arg == OsStr::new("--json"));
+fn exit_from_parser(error: &clap::Error, args: &[OsString]) -> ExitCode {
+    let wants_json = args.iter().any(|arg| arg == "--json");
     if error.use_stderr() && wants_json {
         Output::new(true, false).error(&parser_error(error));
     } else {

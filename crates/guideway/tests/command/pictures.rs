@@ -81,7 +81,7 @@ fn a_crowd_is_shown_as_density_with_its_scale() {
     assert_eq!(first["label"], "1");
     for asked in [
         &["--shade", "lines"][..],
-        &["--color", "0000ff"],
+        &["--path-color", "0000ff"],
         &["--color-by", "kind"],
         &["--plain"],
     ] {

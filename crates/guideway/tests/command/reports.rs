@@ -53,22 +53,37 @@ fn on_file(args: &[&str], file: &PathBuf) -> std::process::Output {
 }
 
 #[test]
-fn severities_have_colors_where_they_are_forced() {
-    let check = |variables: &[(&str, &str)]| {
+fn severities_have_colors_where_they_are_asked_for() {
+    let said = |args: &[&str], variables: &[(&str, &str)]| {
         let mut all = command();
-        all.args(["check", "--show", "1"]).arg(site());
         all.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
-        let output = all.envs(variables.iter().copied()).output().unwrap();
-        stdout(&output)
+        let output = all.args(args).envs(variables.iter().copied()).output();
+        let output = output.unwrap();
+        stdout(&output) + &stderr(&output)
     };
-    let (plain, forced) = (check(&[]), check(&[("CLICOLOR_FORCE", "1")]));
-    assert!(
-        !plain.contains('\u{1b}') && plain.contains("info: "),
-        "{plain}"
-    );
-    assert!(forced.contains("\u{1b}[1;34minfo\u{1b}[0m: "), "{forced}");
-    let both = [("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")];
-    assert!(!check(&both).contains('\u{1b}'));
+    let site = site();
+    let check = ["check", "--show", "1", site.to_str().unwrap()];
+    let (forced, none) = (("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1"));
+    for (args, variables, has_colors) in [
+        (&["--color", "auto"][..], &[][..], false),
+        (&[], &[forced], true),
+        (&[], &[forced, none], false),
+        (&["--color=always"], &[none], true),
+        (&["--color", "never"], &[forced], false),
+    ] {
+        let text = said(&[&check, args].concat(), variables);
+        let word = if has_colors {
+            "\u{1b}[1;34minfo\u{1b}[0m: "
+        } else {
+            "info: "
+        };
+        assert!(text.contains(word), "{args:?}, {variables:?}: {text}");
+        // Errors of arguments and help have them too.
+        for more in [&["--no-such"][..], &["--help"]] {
+            let text = said(&[&check, args, more].concat(), variables);
+            assert_eq!(text.contains('\u{1b}'), has_colors, "{args:?}: {text}");
+        }
+    }
 }
 
 #[test]

@@ -154,7 +154,7 @@ impl Args {
         let style = self.style.style()?;
         Ok(RenderOptions {
             scene: SceneOptions {
-                color: self.style.color,
+                color: self.style.path_color,
                 color_by: self.style.color_by.clone().map(|column| ColorBy { column }),
                 numbers: self.style.numbers(style.background),
                 level: self.view.level.clone(),

@@ -36,7 +36,7 @@ pub(super) struct StyleArgs {
     line_rule: Rule,
     /// Color of paths without a color in the file [default: 000000]
     #[arg(long, value_name = "RRGGBB")]
-    pub(super) color: Option<Rgba>,
+    pub(super) path_color: Option<Rgba>,
     /// Color paths by a column: `level`, `direction`, `vehicle_type` or a column of the file
     #[arg(long, value_name = "COLUMN")]
     pub(super) color_by: Option<String>,
@@ -102,7 +102,7 @@ impl StyleArgs {
             ("--min-px", self.min_px.is_some()),
             ("--max-px", self.max_px.is_some()),
             ("--line-rule", self.line_rule == Rule::Thesis),
-            ("--color", self.color.is_some()),
+            ("--path-color", self.path_color.is_some()),
             ("--palette", self.palette.is_some()),
             ("--range", self.range.is_some()),
             ("--tone", self.tone.is_some()),
@@ -111,7 +111,7 @@ impl StyleArgs {
 
     /// Returns `true` if neither colors nor shading are asked for.
     pub(super) fn may_show_density(&self) -> bool {
-        self.shade.is_none() && self.color_by.is_none() && self.color.is_none()
+        self.shade.is_none() && self.color_by.is_none() && self.path_color.is_none()
     }
 
     /// The colors of numbers on a background.
