@@ -83,7 +83,15 @@ fn measuring_leaves_nothing() {
     assert_eq!(measured.status.code(), Some(0), "{measured:?}");
     let report: serde_json::Value = serde_json::from_slice(&measured.stdout).unwrap();
     assert_eq!(report["guideway"]["report"], "view");
-    assert!(!report["movements"].as_array().unwrap().is_empty());
+    let schema = session::command().args(["schema", "view"]).output();
+    let schema: serde_json::Value = serde_json::from_slice(&schema.unwrap().stdout).unwrap();
+    let keys = |value: &serde_json::Value| -> Vec<String> {
+        value.as_object().unwrap().keys().cloned().collect()
+    };
+    let of_view = &schema["$defs"]["view"]["properties"];
+    assert_eq!(keys(&report), keys(of_view));
+    let of_movement = &of_view["movements"]["items"]["properties"];
+    assert_eq!(keys(&report["movements"][0]), keys(of_movement));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 

@@ -2,8 +2,11 @@
 
 use std::fs;
 
-use serde_json::Value;
+use guideway_bench::Comparison;
+use guideway_bench::survey::{Survey, SurveyCase};
+use serde_json::{Value, json};
 
+use crate::schema::assert_conforms;
 use crate::support::{
     assert_documented, command, has_keys, json as answer, names_in, run, site, stderr, stdout,
 };
@@ -115,6 +118,26 @@ fn report_is_documented_and_equal_in_a_file() {
         assert_eq!(saved, report);
     }
     assert_eq!(names_in(folder.path()), ["bench.json"]);
+}
+
+#[test]
+fn report_of_a_computer_is_documented() {
+    let measured = answer(&tiny(&["--methods", "cpu", "--json"]), "bench");
+    let comparison: Comparison = serde_json::from_value(measured).unwrap();
+    let survey = Survey {
+        machine: comparison.machine.clone(),
+        device_limits: vec![("Largest buffer".into(), "2 GB".into())],
+        started: "2026-01-01T00:00:00Z".into(),
+        elapsed_s: 1.5,
+        cases_left_out: 9,
+        cases: vec![SurveyCase {
+            title: "A site".into(),
+            comparison,
+        }],
+    };
+    let mut report = serde_json::to_value(&survey).unwrap();
+    report["guideway"] = json!({ "report": "bench-report", "version": 1 });
+    assert_conforms(&report);
 }
 
 #[test]

@@ -8,6 +8,8 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
+use crate::schema::assert_conforms;
+
 /// The example site.
 pub(crate) fn site() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/site.lif.json")
@@ -29,13 +31,12 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// The JSON object that the command printed, after a check of its header.
+/// The JSON object that the command printed, after checks of its kind and keys.
 pub(crate) fn json(output: &Output, report: &str) -> Value {
     let text = stdout(output);
     let value: Value = serde_json::from_str(&text)
         .unwrap_or_else(|error| panic!("{error} in {text}\n{}", stderr(output)));
-    assert_eq!(value["guideway"]["report"], report, "{text}");
-    assert_eq!(value["guideway"]["version"], 1, "{text}");
+    assert_eq!(assert_conforms(&value), report, "{text}");
     value
 }
 
