@@ -183,12 +183,15 @@ fn findings_have_a_picture() {
     let whole = fs::read_to_string(site()).unwrap();
     let moved = whole.replace(r#""nodePosition":{"x":"#, r#""nodePosition":{"x":1"#);
     assert_ne!(moved, whole);
-    fs::write(&broken, moved).unwrap();
+    // The finding about this end has the place of its edge in the file.
+    let end = r#""endNodeId":"dock-1-003""#;
+    assert!(moved.contains(end));
+    fs::write(&broken, moved.replacen(end, r#""endNodeId":"none""#, 1)).unwrap();
     let svg = folder.path().join("a.svg");
     let checked = run(["check", text(&broken), "--picture", text(&svg)]);
     assert!(checked.status.code() < Some(2), "{}", stderr(&checked));
     let drawn = fs::read_to_string(&svg).unwrap();
-    for part in ["node-gap", "broken.lif.json: ", "#e07800"] {
+    for part in ["node-gap", "broken.lif.json: ", "#e07800", "#d62728"] {
         assert!(drawn.contains(part), "{part}");
     }
     let two = run([

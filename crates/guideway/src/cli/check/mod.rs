@@ -8,7 +8,7 @@
 //! | `one_file` | reads and checks one file |
 //! | `findings` | findings per file, and their number by severity |
 //! | `fingerprint`, `baseline` | findings that are known and do not count |
-//! | `picture` | `--picture`: the findings in the layout |
+//! | `picture`, `holder` | `--picture`: the findings in the layout |
 //! | `clearance` | `--clearance`: distances between swept areas |
 //! | `report`, `table`, `sarif` | the report for programs, people and code review tools |
 
@@ -19,6 +19,7 @@ mod codes;
 mod config;
 mod findings;
 mod fingerprint;
+mod holder;
 mod one_file;
 mod picture;
 mod report;

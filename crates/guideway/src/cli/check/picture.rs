@@ -11,6 +11,7 @@ use guideway::scene::{DrawList, FrameSize, LineRule, Rgba, Scene, SceneOptions, 
 use guideway::spline::{Bounds, Point};
 
 use super::findings::SeverityCounts;
+use super::holder::Holders;
 use crate::cli::output::Output;
 use crate::cli::picture_file::OTHER_PATHS;
 use crate::cli::picture_output::PictureOutput;
@@ -47,8 +48,10 @@ pub(crate) fn write(
         _ => Severity::Warning,
     };
     let shown = || found.iter().filter(|f| f.severity >= least);
+    let holders = Holders::of(&layout);
+    let element = |place| locate(&layout, place).or_else(|| holders.holder(place));
     let mut located: Vec<(Element, Severity, &'static str)> = shown()
-        .filter_map(|f| Some((locate(&layout, &f.place)?, f.severity, f.code.name())))
+        .filter_map(|f| Some((element(&f.place)?, f.severity, f.code.name())))
         .collect();
     located.sort_by_key(|(_, severity, _)| std::cmp::Reverse(*severity));
     let elsewhere = match shown().count() - located.len() {
