@@ -63,6 +63,9 @@ fn merges_files_with_their_placements() {
     let source = columns.iter().find(|c| c["name"] == "source").unwrap();
     assert_eq!(source["distinct"], 2);
     assert_eq!(both["file"], format!("{}, {}", text(&site_path), alone));
+    let said = stdout(&guideway(&["info", text(&site_path), alone]));
+    assert!(said.starts_with("files       2, together "), "{said}");
+    assert!(said.contains(&format!("\n  {alone}\nformat")), "{said}");
 }
 
 #[test]

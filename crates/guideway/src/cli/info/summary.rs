@@ -16,6 +16,9 @@ const MOST_KINDS: usize = 12;
 #[derive(Debug, Serialize)]
 pub(super) struct Summary {
     pub(super) file: String,
+    /// The names in `file`.
+    #[serde(skip)]
+    pub(super) files: Vec<String>,
     pub(super) file_bytes: Option<u64>,
     pub(super) format: String,
     pub(super) format_version: String,
@@ -111,6 +114,7 @@ impl Summary {
         let two_way = |direction| direction == Direction::Both;
         Self {
             file: input::names(inputs),
+            files: inputs.iter().map(name).collect(),
             file_bytes: inputs.iter().map(size).sum(),
             format: source.format.clone(),
             format_version: source.format_version.clone(),
@@ -243,6 +247,10 @@ fn kinds(found: &Diagnostics) -> Vec<Kind> {
         .into_iter()
         .map(Kind::new)
         .collect()
+}
+
+fn name(input: &Input) -> String {
+    input.path.to_string_lossy().into_owned()
 }
 
 fn size(input: &Input) -> Option<u64> {

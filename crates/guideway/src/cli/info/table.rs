@@ -8,11 +8,13 @@ use crate::cli::text::{bytes, count, counted, meters, number, single_line, time}
 
 /// Most characters of a name or value.
 const MAX_CHARS: usize = 40;
+/// Most files that are named.
+const MAX_FILES: usize = 20;
 
 /// The summary as lines of text.
 pub(super) fn text(of: &Summary) -> String {
     let mut lines = Lines::default();
-    lines.put("file", &file(of));
+    lines.files(of);
     lines.put(
         "format",
         format!("{} {}", of.format, of.format_version).trim_end(),
@@ -75,6 +77,28 @@ impl Lines {
         }
     }
 
+    /// The file with its size, or each of several on a line of its own.
+    fn files(&mut self, of: &Summary) {
+        let name = |name: &String| single_line(name, 400);
+        let size = of.file_bytes.map(bytes);
+        match &of.files[..] {
+            [one] => {
+                let size = size.map_or_else(String::new, |size| format!(" ({size})"));
+                self.put("file", &(name(one) + &size));
+            }
+            several => {
+                let size = size.map_or_else(String::new, |size| format!(", together {size}"));
+                self.put("files", &(count(several.len() as u64) + &size));
+                for file in several.iter().take(MAX_FILES) {
+                    self.0 += &format!("  {}\n", name(file));
+                }
+                if let Some(more) = several.len().checked_sub(MAX_FILES + 1) {
+                    self.0 += &format!("  and {} more\n", count(more as u64 + 1));
+                }
+            }
+        }
+    }
+
     fn columns(&mut self, table: &str, columns: &[Column]) {
         if columns.is_empty() {
             return;
@@ -104,13 +128,6 @@ impl Lines {
             self.0 += &format!("  {:>8}  {severity} {code}: {meaning}\n", count(*n));
         }
     }
-}
-
-fn file(of: &Summary) -> String {
-    let size = of
-        .file_bytes
-        .map_or_else(String::new, |n| format!(" ({})", bytes(n)));
-    format!("{}{size}", single_line(&of.file, 400))
 }
 
 fn paths(of: &Summary) -> String {
