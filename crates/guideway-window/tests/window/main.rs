@@ -6,6 +6,7 @@
 
 mod session;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::BufReader;
 use std::path::Path;
@@ -85,7 +86,7 @@ fn measuring_leaves_nothing() {
     assert_eq!(report["guideway"]["report"], "view");
     let schema = session::command().args(["schema", "view"]).output();
     let schema: serde_json::Value = serde_json::from_slice(&schema.unwrap().stdout).unwrap();
-    let keys = |value: &serde_json::Value| -> Vec<String> {
+    let keys = |value: &serde_json::Value| -> BTreeSet<String> {
         value.as_object().unwrap().keys().cloned().collect()
     };
     let of_view = &schema["$defs"]["view"]["properties"];
