@@ -68,6 +68,22 @@ pub trait Prepared: Send {
         self.render(strip.view(), style, cancel, frame)
     }
 
+    /// Counts the paths that cover each pixel of a view, as density shading does: their mean number
+    /// over the pixel, row by row from the top. The shading of `style` does not matter. `None` if
+    /// the method keeps no counts.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    fn count_paths(
+        &mut self,
+        _view: &View,
+        _style: &Style,
+        _cancel: &Cancel,
+        _counts: &mut Vec<f32>,
+    ) -> Result<Option<Report>, RenderError> {
+        Ok(None)
+    }
+
     /// The graphics device that the method draws on, as an object of its library, such as a
     /// `wgpu::Device`; `None` if it draws in main memory. A caller that shares the device shows
     /// the pictures of [`Self::render_on_device`] without a copy.

@@ -104,6 +104,11 @@ impl ToneScale {
         self.histogram = std::mem::take(&mut self.histogram).merge(histogram);
     }
 
+    /// The largest count so far, at least 1: it has the last color.
+    pub fn max_count(&self) -> f32 {
+        self.max_count
+    }
+
     /// Colors a frame, which may be a part of the picture.
     ///
     /// # Panics

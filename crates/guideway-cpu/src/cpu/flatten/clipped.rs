@@ -7,13 +7,16 @@ use guideway_spline::{Bounds, Point, flatten_run, uniform};
 const TOLERANCE_PX: f64 = 1.0 / 32.0;
 /// Largest side of the hull of what is flattened at once, in pixels; larger curves are halved, and
 /// the halves out of view dropped.
-const WHOLE_PX: f64 = 4096.0;
-/// Most halvings of one segment: enough to bring 10^15 px below that side.
-const MAX_HALVINGS: u32 = 40;
+const WHOLE_PX: f64 = 1024.0;
+/// Most halvings of one segment: enough to bring 10^18 px below that side, the largest coordinate
+/// at the largest scale.
+const MAX_HALVINGS: u32 = 50;
 
 /// Calls `emit` with the lines of a run of control points, in pixels. Drops lines outside
-/// `clip_box` and clips the others, so that cost and coordinates stay small however large the
-/// curve.
+/// `clip_box`, so that cost and coordinates stay small however large the curve.
+///
+/// A line is kept whole: its ends do not depend on the box, and so a tile shows the same bits in a
+/// picture of any size. It is at most 3/2 of [`WHOLE_PX`] long.
 pub(crate) fn flatten_clipped(
     run: &[Point<f64>],
     clip_box: Bounds<f64>,
@@ -36,11 +39,11 @@ fn flatten_part(
     if halvings == 0 || size.x.max(size.y) <= WHOLE_PX {
         let mut last = None;
         flatten_run(run, TOLERANCE_PX, &mut |vertex| {
-            let line = last.and_then(|last| clip(last, vertex, clip_box));
-            if let Some((start, end)) = line {
-                emit(start, end);
+            if let Some(last) = last.replace(vertex)
+                && meets(last, vertex, clip_box)
+            {
+                emit(last, vertex);
             }
-            last = Some(vertex);
         });
     } else if let Ok(segment) = run.try_into() {
         for half in uniform::halves(segment) {
@@ -53,6 +56,11 @@ fn flatten_part(
     }
 }
 
+/// Returns `true` if the box of a line meets a box.
+fn meets(a: Point<f64>, b: Point<f64>, clip_box: Bounds<f64>) -> bool {
+    hull(&[a, b]).intersects(clip_box)
+}
+
 fn hull(points: &[Point<f64>]) -> Bounds<f64> {
     let mut hull = Bounds {
         min: points[0],
@@ -62,30 +70,6 @@ fn hull(points: &[Point<f64>]) -> Bounds<f64> {
         hull = hull.union(Bounds { min: p, max: p });
     }
     hull
-}
-
-/// Clips a line to a box (Liang and Barsky 1984).
-fn clip(a: Point<f64>, b: Point<f64>, within: Bounds<f64>) -> Option<(Point<f64>, Point<f64>)> {
-    let (mut from, mut to) = (0.0_f64, 1.0_f64);
-    let along = b - a;
-    for (start, step, min, max) in [
-        (a.x, along.x, within.min.x, within.max.x),
-        (a.y, along.y, within.min.y, within.max.y),
-    ] {
-        if step == 0.0 {
-            if start < min || start > max {
-                return None;
-            }
-        } else {
-            let (t0, t1) = ((min - start) / step, (max - start) / step);
-            from = from.max(t0.min(t1));
-            to = to.min(t0.max(t1));
-        }
-    }
-    // Ends inside the box keep their bits.
-    let start = if from > 0.0 { a + along * from } else { a };
-    let end = if to < 1.0 { a + along * to } else { b };
-    (from <= to).then_some((start, end))
 }
 
 #[cfg(test)]
@@ -139,29 +123,22 @@ mod tests {
     }
 
     #[test]
-    fn drops_curves_far_outside() {
+    fn drops_curves_far_outside_and_keeps_short_lines() {
         let huge = [(-1e10, 3e9), (-1e9, -1e9), (1e9, 1.000_001e9), (2e9, -8e9)];
         let lines = lines(&huge.map(|(x, y)| Point::new(x, y)));
-        assert!(lines.len() < 40, "{}", lines.len());
-        let near = VIEW.inflated(1e-3);
-        assert!(
-            lines
-                .iter()
-                .all(|&(a, b)| near.contains(a) && near.contains(b))
-        );
+        assert!((1..40).contains(&lines.len()), "{}", lines.len());
+        assert!(lines.iter().all(|&(a, b)| meets(a, b, VIEW)));
+        assert!(lines.iter().all(|(a, b)| a.distance(*b) <= 1.5 * WHOLE_PX));
     }
 
     #[test]
-    fn clips_a_line_to_the_box() {
-        let p = Point::new;
-        assert_eq!(
-            clip(p(-1024.0, 50.0), p(1024.0, 50.0), VIEW),
-            Some((p(0.0, 50.0), p(200.0, 50.0)))
-        );
-        assert_eq!(clip(p(-10.0, 5.0), p(5.0, -100.0), VIEW), None);
-        assert_eq!(
-            clip(p(1.0, 2.0), p(3.0, 4.0), VIEW),
-            Some((p(1.0, 2.0), p(3.0, 4.0)))
-        );
+    fn lines_are_those_of_every_other_box_that_they_meet() {
+        let huge = [(-9e3, 2e4), (-1e3, -9e3), (8e3, 1e4), (2e4, -8e4)];
+        let control = huge.map(|(x, y)| Point::new(x, y));
+        let small = lines(&control);
+        let mut large = Vec::new();
+        flatten_clipped(&control, VIEW.inflated(1e4), &mut |a, b| large.push((a, b)));
+        assert!(small.len() < large.len());
+        assert!(small.iter().all(|line| large.contains(line)));
     }
 }

@@ -1,8 +1,8 @@
 //! Flattens one cluster: from the control points of its paths to polylines.
 //!
 //! Clusters whose lines fit in 16 bits are flattened once per scale, relative to the origin of the
-//! cluster, and cached. Larger clusters are clipped at the picture and flattened in pixels, frame
-//! by frame.
+//! cluster, and cached. Larger clusters are flattened in pixels, frame by frame, without the lines
+//! out of the picture.
 
 use std::ops::Range;
 
@@ -29,9 +29,15 @@ pub(crate) enum ClusterLines {
     /// Vertices relative to the origin of the cluster, y down, with their unit in meters: valid for
     /// every view of that unit.
     Cached(f64, Polylines<i16>),
-    /// Vertices in pixels of one frame, clipped at the picture: of clusters too large for 16 bits.
+    /// Vertices in pixels of one frame, in which the lines may touch the picture: of clusters too
+    /// large for 16 bits.
     Clipped(Polylines<f32>),
 }
+
+/// Steps per pixel that vertices of clipped lines are rounded to. Derived: every such position in a
+/// picture of 65,535 pixels, with the lines that leave it, is an `f32`, so that pictures of all
+/// sizes have the same vertices.
+const CLIPPED_STEPS_PER_PX: f64 = 128.0;
 
 /// Buffers of one thread.
 #[derive(Default)]
@@ -57,8 +63,8 @@ fn spread_order(members: usize) -> impl Iterator<Item = usize> {
 }
 
 impl ClusterLines {
-    /// Flattens a cluster for a frame, relative to its origin or, if it is oversized, clipped at
-    /// the picture. Clipped lines are complete only within `rows` of tiles.
+    /// Flattens a cluster for a frame, relative to its origin or, if it is oversized, in
+    /// pixels of the picture. Such lines are complete only within `rows` of tiles.
     pub(crate) fn flatten(
         &mut self,
         ctx: &FrameContext<'_>,
@@ -212,7 +218,16 @@ impl FlattenScratch {
     ) {
         let pixels = &mut self.pixels;
         clipped.clear();
+        let (transform, anchor_px) = (ctx.transform, ctx.transform.anchor_px());
         let (clip, reach) = (ctx.clip_px(), ctx.max_radius_px() + 1.0);
+        let clip = Bounds {
+            min: clip.min - anchor_px,
+            max: clip.max - anchor_px,
+        };
+        let in_picture = |vertex: Point<f64>| {
+            let snap = |x: f64| (x * CLIPPED_STEPS_PER_PX).round() / CLIPPED_STEPS_PER_PX;
+            Point::new(snap(vertex.x), snap(vertex.y)) + anchor_px
+        };
         let top = (rows.start * TILE_PX) as f64 - reach;
         let bottom = (rows.end * TILE_PX) as f64 + reach;
         let mut writer = PolylineWriter::new();
@@ -225,9 +240,10 @@ impl FlattenScratch {
             let before = line_count;
             for run in ctx.scene.layout().paths.geometry().runs(path as usize) {
                 pixels.clear();
-                pixels.extend(run.iter().map(|p| ctx.view.pixel_from_world(by.apply(p))));
+                pixels.extend(run.iter().map(|p| transform.pixel_from_anchor(by.apply(p))));
                 let mut last = None;
-                flatten_clipped(pixels, clip, &mut |start: Point<f64>, end: Point<f64>| {
+                flatten_clipped(pixels, clip, &mut |start, end| {
+                    let (start, end) = (in_picture(start), in_picture(end));
                     line_count += 1;
                     if start.y.max(end.y) < top || start.y.min(end.y) > bottom {
                         return;

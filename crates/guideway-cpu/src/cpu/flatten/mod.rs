@@ -5,7 +5,7 @@
 //!   control points -> knots -> chains -> polylines      `cluster_lines`: cached per cluster
 //!                     `knots`  `chain_curves`  `simplify`, `polylines`
 //!
-//!   control points --------------------> clipped lines  `clipped`: clusters too large for 16 bits
+//!   control points --------------------> lines in pixels `clipped`: clusters too large for 16 bits
 //! ```
 
 pub(super) mod chain_curves;

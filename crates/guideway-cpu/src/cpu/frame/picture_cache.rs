@@ -149,7 +149,7 @@ impl PictureCache {
             add(ctx.touched_px(bounds));
         }
         if [right, down] != [0, 0] {
-            // Lines that are clipped at the picture differ in the last bits after a pan.
+            // Long lines may differ in the last bits after a pan by less than a tile.
             for visible in visible.iter().filter(|visible| visible.is_oversized) {
                 let [min, max] = [visible.bounds_px.min, visible.bounds_px.max].map(Point::to_f64);
                 add(Bounds { min, max });

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::cast_slice;
 use guideway_layout::clock::Instant;
 use guideway_scene::cluster::PendingEdit;
-use guideway_scene::density::ToneScale;
+use guideway_scene::density::{ToneMap, ToneScale};
 use guideway_scene::{
     Budget, Cancel, Edit, EditOutcome, Frame, Gesture, GesturePaths, Preparation, Prepared,
     RenderError, Report, Scene, Shading, Stage, Strip, Style, View, elapsed_ms,
@@ -84,9 +84,7 @@ impl CpuPrepared {
             simd: SimdLevel::default(),
         })
     }
-}
 
-impl CpuPrepared {
     /// Splits the paths of a gesture off from others.
     fn begin_gesture(&mut self, gesture: &Gesture) -> Result<ShownGesture, RenderError> {
         let scene = &*self.scene;
@@ -248,6 +246,20 @@ impl Prepared for CpuPrepared {
                 .map(|(_, _, tones)| tones.legend()),
             ..Report::of(NAME, scene, pipeline.path_count)
         })
+    }
+
+    fn count_paths(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+        counts: &mut Vec<f32>,
+    ) -> Result<Option<Report>, RenderError> {
+        let shading = Shading::Density(ToneMap::Linear);
+        let style = Style { shading, ..*style };
+        let report = self.render(view, &style, cancel, &mut Frame::new(view.size()))?;
+        counts.clone_from(&self.pipeline.counts);
+        Ok(Some(report))
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {

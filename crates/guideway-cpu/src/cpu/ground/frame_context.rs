@@ -180,8 +180,7 @@ impl FrameContext<'_> {
         }
     }
 
-    /// Box of the center lines that touch the picture, in pixels. One pixel more keeps the caps of
-    /// lines that are clipped there out of the picture.
+    /// Box of the center lines that touch the picture, in pixels, with a pixel for rounding.
     pub(crate) fn clip_px(&self) -> Bounds<f64> {
         self.picture_px().inflated(self.max_radius_px() + 1.0)
     }

@@ -55,6 +55,21 @@ impl SnappedTransform {
         steps * (1.0 / STEPS_PER_PX)
     }
 
+    /// The pixel that holds the anchor: whole numbers, from the upper left corner.
+    pub(crate) fn anchor_px(&self) -> Point<f64> {
+        let anchor = self.anchor * (1.0 / STEPS_PER_PX);
+        Point::new(anchor.x.floor(), anchor.y.floor())
+    }
+
+    /// Maps a world point, rounded to steps, to pixels from [`Self::anchor_px`]: the same bits in
+    /// all views that differ by whole pixels.
+    pub(crate) fn pixel_from_anchor(&self, world_m: Point<f64>) -> Point<f64> {
+        let steps = (world_m - self.anchor_m) * (self.px_per_m * STEPS_PER_PX);
+        let within_px = self.anchor * (1.0 / STEPS_PER_PX) - self.anchor_px();
+        let px = Point::new(steps.x.round(), -steps.y.round()) * (1.0 / STEPS_PER_PX);
+        within_px + px
+    }
+
     /// The offset of another view to the right and down, if it is this one moved by whole pixels.
     pub(crate) fn whole_px_to(&self, other: &Self) -> Option<[i64; 2]> {
         let is_alike = self.px_per_m == other.px_per_m && self.anchor_m == other.anchor_m;
@@ -100,6 +115,21 @@ mod tests {
         assert_eq!(from.whole_px_to(&to), Some([13, -4]));
         let moved = from.pixel(world_m) - to.pixel(world_m);
         assert_eq!(moved, Point::new(13.0, -4.0));
+    }
+
+    #[test]
+    fn pixels_from_the_anchor_are_the_same_bits_in_all_such_views() {
+        let (scale, world_m) = (3.7, Point::new(12.345, -6.789));
+        let from = snapped(10.0, 20.0, scale);
+        let to = snapped(10.0 + 13.0 / scale, 20.0 + 4.0 / scale, scale);
+        assert_eq!(
+            from.pixel_from_anchor(world_m),
+            to.pixel_from_anchor(world_m)
+        );
+        for view in [from, to] {
+            let px = view.anchor_px() + view.pixel_from_anchor(world_m);
+            assert_eq!(px, view.pixel(world_m));
+        }
     }
 
     #[test]
