@@ -18,6 +18,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-gpu", SCENE),
     ("guideway-tessellation", SCENE),
     ("guideway-document", SCENE),
+    ("guideway-tiles", SCENE),
     (
         "guideway-grid",
         &[
@@ -115,15 +116,16 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("svgtypes", "guideway-formats"),
     (
         "serde_json",
-        "guideway-formats guideway-envelope guideway guideway-tests guideway-web guideway-window \
-         xtask",
+        "guideway-formats guideway-envelope guideway guideway-tests guideway-tiles guideway-web \
+         guideway-window xtask",
     ),
     ("anstream", "guideway"),
     ("clap", "guideway"),
     ("indicatif", "guideway"),
     (
         "png",
-        "guideway-compose guideway-formats guideway-bench guideway-reproduce guideway-tests",
+        "guideway-compose guideway-formats guideway-bench guideway-reproduce guideway-tests \
+         guideway-tiles",
     ),
     ("wgpu", "guideway-gpu guideway-grid guideway-tree"),
     ("glow", "guideway-tessellation"),

@@ -197,6 +197,8 @@ pub use guideway_layout as layout;
 pub use guideway_network as network;
 pub use guideway_scene as scene;
 pub use guideway_spline as spline;
+#[cfg(feature = "tiles")]
+pub use guideway_tiles as tiles;
 
 pub use files::{SaveAsError, check, open, render, save, write};
 pub use guideway_compose::{save_png, save_png_by, write_png_by};

@@ -1,0 +1,227 @@
+//! Raster tiles against one large picture, and runs that are stopped and go on.
+
+use std::cell::Cell;
+use std::fs::OpenOptions;
+use std::io::Cursor;
+use std::sync::Arc;
+
+use guideway_cpu::Cpu;
+use guideway_datasets::d1;
+use guideway_layout::{Layout, NewPath};
+use guideway_scene::density::{ToneMap, ToneScale};
+use guideway_scene::{
+    Budget, Cancel, ColorBy, Frame, FrameSize, Method, Scene, SceneOptions, Shading, Style, View,
+};
+use guideway_spline::{Point, Runs};
+use guideway_tiles::{
+    ArchiveInfo, Content, Journal, Made, Painter, Pyramid, TILE_PX, Tile, TileGrid, VectorOptions,
+    place,
+};
+
+/// Halls of a data set, and curves far larger than a tile.
+fn layout() -> Layout {
+    let mut layout = Layout::default();
+    let mut runs = Runs::default();
+    for path in d1(2000, 5) {
+        runs.clear();
+        let points: Vec<Point<f64>> = path.run.iter().map(|p| p.to_f64()).collect();
+        runs.push(&points);
+        push(&mut layout, &path.id, &runs);
+    }
+    let bounds = layout.paths.hull_bounds().unwrap();
+    let at = |x: f64, y: f64| {
+        let size = bounds.size();
+        bounds.min + Point::new(x * size.x, y * size.y)
+    };
+    for (i, [a, b]) in [[(0.01, 0.03), (0.97, 0.91)], [(0.5, -1.0), (0.499, 2.0)]]
+        .into_iter()
+        .enumerate()
+    {
+        runs.clear();
+        runs.push_line(at(a.0, a.1), at(b.0, b.1));
+        runs.push(&[at(b.0, b.1), at(0.9, 0.1), at(0.2, 0.7), at(0.4, 0.35)]);
+        push(&mut layout, &format!("long-{i}"), &runs);
+    }
+    layout
+}
+
+fn push(layout: &mut Layout, id: &str, runs: &Runs) {
+    layout.paths.push(&NewPath {
+        id,
+        runs,
+        ..NewPath::default()
+    });
+}
+
+fn scene(options: &SceneOptions) -> (Arc<Scene>, TileGrid) {
+    let (layout, grid) = place(layout(), false);
+    (
+        Arc::new(Scene::new(Arc::new(layout), options).unwrap()),
+        grid,
+    )
+}
+
+fn pixels(png: &[u8]) -> Vec<[u8; 4]> {
+    let mut decoder = png::Decoder::new(Cursor::new(png));
+    decoder.set_transformations(png::Transformations::ALPHA);
+    let mut reader = decoder.read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    bytes.as_chunks::<4>().0.to_vec()
+}
+
+/// Compares all tiles of a zoom, drawn one by one and by blocks, with a picture of 3072 x 2048
+/// pixels that begins within the square.
+fn check(options: &SceneOptions, shading: Shading, zoom: u8) {
+    let (scene, grid) = scene(options);
+    let style = Style {
+        shading,
+        ..Style::default()
+    };
+    let budget = Budget::default();
+    let (width, height) = (12, 8);
+    let first = (1 << zoom) / 2 - 6;
+    let corner = grid.bounds(Tile::new(zoom, first, first).unwrap());
+    let px_per_m = grid.px_per_m(zoom);
+    let center = Point::new(
+        corner.min.x + f64::from(width * TILE_PX / 2) / px_per_m,
+        corner.max.y - f64::from(height * TILE_PX / 2) / px_per_m,
+    );
+    let size = FrameSize::new(width * TILE_PX, height * TILE_PX).unwrap();
+    let view = View::new(size, center, px_per_m).unwrap();
+    let mut picture = Frame::new(size);
+    let mut prepared = Cpu.prepare(Arc::clone(&scene), &budget).unwrap();
+    let (cancel, mut tones) = (Cancel::default(), None);
+    prepared
+        .render(&view, &style, &cancel, &mut picture)
+        .unwrap();
+    if let Shading::Density(tone) = shading {
+        let mut counts = Vec::new();
+        prepared
+            .count_paths(&view, &style, &cancel, &mut counts)
+            .unwrap();
+        let mut scale = ToneScale::new(tone, style.background);
+        scale.observe(&counts);
+        tones = Some(scale);
+    }
+    let mut painter = Painter::new(&Cpu, Arc::clone(&scene), grid, style, &budget).unwrap();
+    let mut compare = |tile: Tile, zooms: u8| {
+        let mut shown = 0;
+        for (tile, png) in painter.draw(tile, zooms, tones.as_ref(), &cancel).unwrap() {
+            if tile.x.min(tile.y) < first || tile.x >= first + width || tile.y >= first + height {
+                continue;
+            }
+            let [left, top] = [tile.x - first, tile.y - first].map(|at| (at * TILE_PX) as usize);
+            let side = TILE_PX as usize;
+            let rows = (top..top + side)
+                .map(|row| &picture.pixels()[row * size.width() as usize + left..][..side]);
+            match png {
+                Some(png) => {
+                    assert!(rows.flatten().eq(&pixels(&png)), "{tile:?} {zooms}");
+                    shown += 1;
+                }
+                None => assert!(rows.flatten().all(|pixel| *pixel == [255; 4]), "{tile:?}"),
+            }
+        }
+        shown
+    };
+    let mut shown = 0;
+    for y in first..first + height {
+        for x in first..first + width {
+            shown += compare(Tile::new(zoom, x, y).unwrap(), 0);
+        }
+    }
+    assert!(shown > 12, "{shown} tiles");
+    let above = Tile::new(zoom - 3, first >> 3, first >> 3).unwrap();
+    assert!(compare(above, 3) > 0);
+}
+
+#[test]
+fn tiles_are_windows_of_one_large_picture() {
+    check(&SceneOptions::default(), Shading::Color, 4);
+    check(&SceneOptions::default(), Shading::Color, 7);
+    check(&SceneOptions::default(), Shading::Density(ToneMap::Log), 7);
+    let colors = SceneOptions {
+        color_by: Some(ColorBy {
+            column: "direction".to_owned(),
+        }),
+        ..SceneOptions::default()
+    };
+    check(&colors, Shading::Color, 6);
+}
+
+/// Makes an archive; stops after some blocks and goes on with a new journal object.
+fn archive(content: &dyn Fn() -> Content, stop_after: usize) -> (Vec<u8>, usize) {
+    let (scene, grid) = scene(&SceneOptions::default());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("journal");
+    let mut runs = 0;
+    let vector = match content() {
+        Content::Vector(options) => Some(options),
+        Content::Raster(_) => None,
+    };
+    loop {
+        let mut options = OpenOptions::new();
+        let file = options.read(true).write(true).create(true).truncate(false);
+        let mut journal = Journal::open(file.open(&path).unwrap(), 7).unwrap();
+        let (cancel, steps) = (Cancel::default(), Cell::new(0));
+        let pyramid = Pyramid {
+            scene: Arc::clone(&scene),
+            grid,
+            zooms: 0..=5,
+            progress: &|share| {
+                assert!((0.0..=1.0).contains(&share));
+                steps.set(steps.get() + 1);
+                if steps.get() == stop_after {
+                    cancel.set();
+                }
+            },
+            cancel: &cancel,
+        };
+        runs += 1;
+        let made = pyramid.make(&mut content(), &mut journal).unwrap();
+        if made == Made::Stopped {
+            drop(journal);
+            // As a run that was killed in the middle of a block.
+            let file = OpenOptions::new().append(true).open(&path).unwrap();
+            std::io::Write::write_all(&mut &file, &[9; 333]).unwrap();
+            continue;
+        }
+        let info = ArchiveInfo {
+            name: "test",
+            scene: &scene,
+            grid,
+            zooms: [0, 5],
+            vector: vector.as_ref(),
+        };
+        let mut bytes = Vec::new();
+        let size = journal.write_archive(&info, &mut bytes).unwrap();
+        assert_eq!(size.bytes, bytes.len() as u64);
+        assert!(size.contents <= size.tiles && size.tiles > 50, "{size:?}");
+        return (bytes, runs);
+    }
+}
+
+#[test]
+fn a_run_that_was_stopped_makes_the_same_archive() {
+    let density = || {
+        let (scene, grid) = scene(&SceneOptions::default());
+        let style = Style {
+            shading: Shading::Density(ToneMap::Log),
+            ..Style::default()
+        };
+        let painter = Painter::new(&Cpu, scene, grid, style, &Budget::default());
+        Content::Raster(Box::new(painter.unwrap()))
+    };
+    let vector = || Content::Vector(VectorOptions::default());
+    check_stops(&density, 31);
+    check_stops(&vector, 6);
+}
+
+fn check_stops(content: &dyn Fn() -> Content, stop_after: usize) {
+    let (whole, runs) = archive(content, usize::MAX);
+    assert_eq!(runs, 1);
+    let (in_parts, runs) = archive(content, stop_after);
+    assert!(runs > 1 && in_parts == whole, "{runs} runs");
+    assert_eq!(&whole[..8], b"PMTiles\x03");
+}
