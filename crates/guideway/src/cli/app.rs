@@ -11,7 +11,7 @@ use super::output::Output;
 use super::start::{self, GlobalOptions};
 use super::{
     bench, check, convert, default_command, demo, diff, doctor, edit, generate, info, methods,
-    network, process, render, reproduce, route, share, shell, view,
+    network, process, render, reproduce, route, share, shell, tiles, view,
 };
 
 /// Draws and checks the path layouts of automated guided vehicles.
@@ -41,6 +41,8 @@ enum Command {
     Render(Box<render::Args>),
     /// Write layout files into one HTML file that any browser opens
     Share(share::Args),
+    /// Make tiles of layout files for maps in browsers
+    Tiles(Box<tiles::Args>),
     /// Summarize the content of layout files
     Info(info::Args),
     /// Find mistakes in layout files
@@ -95,6 +97,7 @@ fn run(command: &Command, args: &[OsString], out: &Output) -> Result<Exit, UserE
         Command::View(view) => view::run(view, args, out),
         Command::Render(args) => render::run(args, out),
         Command::Share(args) => share::run(args, out),
+        Command::Tiles(args) => tiles::run(args, out),
         Command::Info(args) => info::run(args, out),
         Command::Check(args) => check::run(args, out),
         Command::Diff(args) => diff::run(args, out),

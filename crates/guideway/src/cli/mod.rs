@@ -44,6 +44,7 @@ mod shell;
 mod start;
 mod stdout;
 mod text;
+mod tiles;
 mod values;
 mod view;
 

@@ -30,5 +30,6 @@ mod share;
 mod site_repository;
 mod support;
 mod tasks;
+mod tiles;
 #[cfg(unix)]
 mod view;

@@ -145,6 +145,7 @@ fn answers_of_every_command_conform() {
             "--floor-plan",
             site,
         ],
+        &["tiles", site, "-o", "a.pmtiles", "--zoom", "0-1"],
         &["info", site],
         &["info", "guideway-demo/faulty.lif.json"],
         &["check", site, "--clearance", "0.1", "--envelope", "2x1"],

@@ -20,4 +20,4 @@ mod view_notes;
 
 pub(crate) use args::Args;
 pub(crate) use run::run;
-pub(crate) use style_args::{Rule, Shade};
+pub(crate) use style_args::{Rule, Shade, StyleArgs};

@@ -10,7 +10,7 @@ use crate::cli::values;
 
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Style")]
-pub(super) struct StyleArgs {
+pub(crate) struct StyleArgs {
     /// Width of paths without a width in the file [default: a hairline in drawings and where paths
     /// would cover each other, 2 pixels where all is shown, else 0.1]
     #[arg(
@@ -36,10 +36,10 @@ pub(super) struct StyleArgs {
     line_rule: Rule,
     /// Color of paths without a color in the file [default: 000000]
     #[arg(long, value_name = "RRGGBB")]
-    pub(super) path_color: Option<Rgba>,
+    pub(crate) path_color: Option<Rgba>,
     /// Color paths by a column: `level`, `direction`, `vehicle_type` or a column of the file
     #[arg(long, value_name = "COLUMN")]
-    pub(super) color_by: Option<String>,
+    pub(crate) color_by: Option<String>,
     /// Colors of the numbers of that column [default: warm]
     #[arg(long, value_name = "NAME", requires = "color_by", value_parser = values::palette())]
     palette: Option<Palette>,
@@ -54,7 +54,7 @@ pub(super) struct StyleArgs {
     range: Option<[f64; 2]>,
     /// Draw the legend of the colors into the picture
     #[arg(long)]
-    pub(super) legend: bool,
+    pub(crate) legend: bool,
     /// Background color; `none` for a transparent picture [default: ffffff]
     #[arg(long, value_name = "RRGGBB", value_parser = values::background)]
     background: Option<Rgba>,
@@ -90,13 +90,21 @@ enum Tone {
 
 impl StyleArgs {
     /// Returns `true` if an option sets the widths of lines.
-    pub(super) fn has_widths(&self) -> bool {
+    pub(crate) fn has_widths(&self) -> bool {
         let is_given = self.width.or(self.min_px).or(self.max_px).is_some();
         is_given || self.line_rule == Rule::Thesis
     }
 
+    /// Returns `true` if any of these options is given.
+    pub(crate) fn is_given(&self) -> bool {
+        let is_colored = self.color_by.is_some() || self.background.is_some();
+        let options = self.absent_in_pages();
+        let is_set = options.iter().any(|(_, is_set)| *is_set);
+        is_set || is_colored || self.shade.is_some() || self.legend
+    }
+
     /// The options of which a page has none.
-    pub(super) fn absent_in_pages(&self) -> [(&'static str, bool); 8] {
+    pub(crate) fn absent_in_pages(&self) -> [(&'static str, bool); 8] {
         [
             ("--width", self.width.is_some()),
             ("--min-px", self.min_px.is_some()),
@@ -110,12 +118,12 @@ impl StyleArgs {
     }
 
     /// Returns `true` if neither colors nor shading are asked for.
-    pub(super) fn may_show_density(&self) -> bool {
+    pub(crate) fn may_show_density(&self) -> bool {
         self.shade.is_none() && self.color_by.is_none() && self.path_color.is_none()
     }
 
     /// The colors of numbers on a background.
-    pub(super) fn numbers(&self, background: Rgba) -> NumberColors {
+    pub(crate) fn numbers(&self, background: Rgba) -> NumberColors {
         NumberColors {
             palette: self.palette.unwrap_or_default(),
             range: self.range,
@@ -123,7 +131,7 @@ impl StyleArgs {
         }
     }
 
-    pub(super) fn style(&self) -> Result<Style, UserError> {
+    pub(crate) fn style(&self) -> Result<Style, UserError> {
         let default = Style::default();
         Ok(Style {
             line_rule: self.line_rule()?,
