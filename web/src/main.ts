@@ -1,27 +1,24 @@
 // The page: opens files and the shared layout, joins map, panels and engine.
 
-import type { Details, Finding, Info, Look, Picture, Point, Reference, Shared } from "./answers";
-import { BrokenEngine, Engine, GuidewayError } from "./engine";
-import { GuidewayMap, paintElement } from "./map";
-import { Panels, byId, cells, item } from "./panels";
-import { count, language, meters, t } from "./text";
+import type { Details, Finding, Info, Picture, Point, Reference, Shared } from "./answers.js";
+import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
+import { GuidewayMap, paintElement } from "./map.js";
+import { Panels, byId, cells, item } from "./panels.js";
+import { Pointer } from "./pointer.js";
+import { count, language, meters, t } from "./text.js";
 
 /** Largest file that fits into the memory of a page beside its layout. */
 const MAX_BYTES = 1_500_000_000;
-const REACH_PX = 8;
 
 const packedEngine = byId("engine").textContent!.trim();
 const shared: Shared | undefined = readShared();
 const engine = new Engine(packedEngine);
 const map = new GuidewayMap(byId<HTMLCanvasElement>("map"));
 const panels = new Panels();
+const pointer = new Pointer((...call) => engine.call(...call));
 
 let info: Info | undefined;
-let selected: Details | undefined;
-let hovered: Details | undefined;
 let measured: Point[] | undefined;
-/** Counts what is opened: an answer about another layout is late. */
-let openings = 0;
 
 function readShared(): Shared | undefined {
   const text = document.getElementById("shared")?.textContent;
@@ -29,14 +26,7 @@ function readShared(): Shared | undefined {
 }
 
 function notice(error: unknown): void {
-  const words =
-    error instanceof GuidewayError
-      ? `${error.message}.\n${error.remedy}.`
-      : error instanceof BrokenEngine
-        ? `${t("The engine stopped")} (${error.message}).\n` +
-          t("Not enough memory, or a fault of this page. Open a smaller file, or use the command.")
-        : String(error);
-  byId("notice-text").textContent = words;
+  byId("notice-text").textContent = wordsOf(error);
   byId("notice").hidden = false;
   if (error instanceof BrokenEngine) close();
 }
@@ -51,8 +41,8 @@ function close(): void {
 }
 
 function forget(): void {
-  openings++;
-  selected = hovered = measured = undefined;
+  pointer.forget();
+  measured = undefined;
   panels.clear();
 }
 
@@ -126,7 +116,7 @@ map.onfail = (error) => {
 
 map.overlay = (pen, at) => {
   const accent = getComputedStyle(document.documentElement).getPropertyValue("--accent");
-  for (const element of [hovered, selected]) {
+  for (const element of [pointer.hovered, pointer.selected]) {
     if (element) paintElement(pen, at, element, accent, map.scale);
   }
   if (!measured?.length) return;
@@ -135,45 +125,28 @@ map.overlay = (pen, at) => {
   paintElement(pen, at, line, "#d55e00", map.scale);
 };
 
-let isHitting = false;
 map.onpoint = async (x, y, isClick) => {
   if (!info) return;
   if (measured) {
     if (isClick) addPoint(map.world([x, y]));
     return;
   }
-  if (isHitting && !isClick) return;
-  isHitting = true;
   try {
-    const opening = openings;
-    const hit = await engine.call<Reference | null>("hit", [x, y, REACH_PX * map.scale]);
-    const known = [hovered, selected].find((e) => e?.kind === hit?.kind && e?.row === hit?.row);
-    const element = hit ? (known ?? (await detailsOf(hit))) : undefined;
-    if (opening !== openings) return;
-    if (isClick) {
-      selected = element;
-      if (element) panels.tab("layout");
-    }
-    hovered = element;
-    panels.showElement(hovered ?? selected);
+    if (!(await pointer.point([x, y], isClick, map.scale))) return;
+    if (isClick && pointer.selected) panels.tab("layout");
+    panels.showElement(pointer.hovered ?? pointer.selected);
     map.paint();
   } catch (error) {
     map.onfail(error);
-  } finally {
-    isHitting = false;
   }
 };
 
-function detailsOf(of: Reference): Promise<Details> {
-  return engine.call<Details>("element", [of.kind, of.row]);
-}
-
 async function flyTo(of: Reference): Promise<void> {
   try {
-    selected = await detailsOf(of);
-    hovered = undefined;
-    panels.showElement(selected);
-    if (selected.bounds) map.flyTo(selected.bounds);
+    pointer.selected = await pointer.details(of);
+    pointer.hovered = undefined;
+    panels.showElement(pointer.selected);
+    if (pointer.selected.bounds) map.flyTo(pointer.selected.bounds);
   } catch (error) {
     notice(error);
   }
@@ -243,7 +216,7 @@ async function check(): Promise<void> {
 async function compare(file: File): Promise<void> {
   const found = await busy(`${file.name}: ${t("reading")}`, async () => {
     const bytes = await file.arrayBuffer();
-    return engine.call<import("./answers").Diff>("diff", [file.name, bytes, 300], [bytes]);
+    return engine.call<import("./answers.js").Diff>("diff", [file.name, bytes, 300], [bytes]);
   });
   if (found) panels.showChanges(found);
 }
@@ -261,8 +234,7 @@ function stem(): string {
 }
 
 async function savePicture(format: string): Promise<void> {
-  const { width, height } = map.canvas;
-  const look: Look = { ...map.look, width, height, pxPerPoint: map.scale, ...map.view };
+  const look = map.lookNow;
   // Curves show colors alone.
   if (format !== "png") look.shade = "color";
   const call = format === "png" ? "png" : "curves";
@@ -338,7 +310,7 @@ function connect(): void {
     const isTyping = event.target instanceof HTMLInputElement;
     if (event.key === "Escape") {
       setMeasuring(false);
-      selected = hovered = undefined;
+      pointer.selected = pointer.hovered = undefined;
       panels.showElement(undefined);
     } else if (event.key === "/" && !isTyping) {
       event.preventDefault();

@@ -1,12 +1,15 @@
 // The map: shows the last picture where the view wants it, asks for a sharp one, takes gestures.
 
-import type { Box, Details, Look, Picture, Point, Report } from "./answers";
+import type { Box, Details, Look, Picture, Point, Report } from "./answers.js";
 
 export interface View {
   center: Point;
   pxPerM: number;
 }
 
+/** Colors of paper and ink, as those of the page: style.css. */
+export const LIGHT = { background: "ffffff", color: "000000" };
+export const DARK = { background: "16181d", color: "e6e6e6" };
 /** Widest part of a view that bounds fill. */
 const FIT = 0.9;
 
@@ -15,6 +18,7 @@ export class GuidewayMap {
   draw: (look: Look) => Promise<Picture> = () => Promise.reject(new Error("no layout"));
   onreport: (report: Report) => void = () => {};
   onfail: (error: unknown) => void = () => {};
+  onview: (view: View) => void = () => {};
   onpoint: (x: number, y: number, isClick: boolean) => void = () => {};
   /** What the page draws over the paths. */
   overlay: (pen: CanvasRenderingContext2D, at: (point: Point) => Point) => void = () => {};
@@ -30,6 +34,7 @@ export class GuidewayMap {
   private isDrawing = false;
   private wants = false;
   private isPainting = false;
+  private painted: View | undefined;
   private pointers = new Map<number, Point>();
   private moved = 0;
 
@@ -48,6 +53,13 @@ export class GuidewayMap {
     return window.devicePixelRatio || 1;
   }
 
+  /** The picture that the map shows. A map of all asks for all: its lines are wider. */
+  get lookNow(): Look {
+    const { width, height } = this.canvas;
+    const view = this.isFit ? undefined : this.view;
+    return { ...this.look, width, height, pxPerPoint: this.scale, ...view };
+  }
+
   /** Forgets the picture of another layout. */
   reset(): void {
     this.shown?.image.close();
@@ -58,7 +70,7 @@ export class GuidewayMap {
 
   /** Shows a view that somebody else saw. */
   show(view: View): void {
-    this.view = view;
+    this.view = { center: view.center, pxPerM: view.pxPerM };
     this.isFit = false;
   }
 
@@ -81,10 +93,9 @@ export class GuidewayMap {
   }
 
   private async redraw(): Promise<void> {
-    const { width, height } = this.canvas;
+    const look = this.lookNow;
+    const { width, height } = look;
     const asked = this.view;
-    const place = asked ? { center: asked.center, pxPerM: asked.pxPerM } : {};
-    const look = { ...this.look, width, height, pxPerPoint: this.scale, ...place };
     const picture = await this.draw(look);
     const pixels = new Uint8ClampedArray(picture.rgba);
     const image = await createImageBitmap(new ImageData(pixels, width, height));
@@ -182,6 +193,9 @@ export class GuidewayMap {
     const round = ratio === 1 ? Math.round : (value: number) => value;
     pen.drawImage(image, round(x - w / 2), round(y - h / 2), w, h);
     this.overlay(pen, (point) => this.pixel(point));
+    if (this.view === this.painted) return;
+    this.painted = this.view;
+    if (this.view) this.onview(this.view);
   }
 
   private resize(): void {

@@ -1,12 +1,11 @@
 // The panels beside the map: facts, settings, lists. They know the page, and no engine.
 
-import type { Details, Diff, Finding, Findings, Info, Look, Reference, Summary } from "./answers";
-import { count, meters, t } from "./text";
+import type { Details, Diff, Finding, Findings, Info, Look } from "./answers.js";
+import type { Reference, Summary } from "./answers.js";
+import { DARK, LIGHT } from "./map.js";
+import { count, meters, t } from "./text.js";
 
 const SWITCHES = ["arrows", "nodes", "stations", "labels", "grid", "scaleBar", "legend"] as const;
-/** Colors of paper and ink, as those of the page: style.css. */
-const LIGHT = { background: "ffffff", color: "000000" };
-const DARK = { background: "16181d", color: "e6e6e6" };
 /** Paths above which the marks of all of them are off at first. */
 const MANY = 20_000;
 

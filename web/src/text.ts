@@ -76,7 +76,8 @@ const english: Record<string, string> = {
     "server.",
 };
 
-export const language = navigator.language.startsWith("de") ? "de" : "en";
+// A server that renders pages may load this, too, and has no navigator.
+export const language = globalThis.navigator?.language?.startsWith("de") ? "de" : "en";
 
 /** A text of the page in the language of the browser. */
 export function t(text: string): string {

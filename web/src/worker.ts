@@ -42,8 +42,9 @@ function replace(name: string, bytes: Uint8Array): unknown {
 }
 
 const calls: Record<string, (...args: never[]) => unknown> = {
-  start: async (base64: string) => {
-    memory = (await init({ module_or_path: await unpacked(base64) })).memory;
+  start: async (engine: string | WebAssembly.Module) => {
+    const source = typeof engine === "string" ? await unpacked(engine) : engine;
+    memory = (await init({ module_or_path: source })).memory;
   },
   open: (name: string, bytes: ArrayBuffer) => replace(name, new Uint8Array(bytes)),
   openPacked: async (name: string, base64: string) =>

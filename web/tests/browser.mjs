@@ -2,24 +2,14 @@
 // after `cargo xtask web` and a build of the command. Pictures of the page go to target/web/shots.
 
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { existsSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { command, folder, guideway, isSame, launch, shots, site } from "./harness.mjs";
 
-const command = resolve(process.env["GUIDEWAY"] ?? "target/debug/guideway");
-const folder = resolve("target/web/tests");
-const shots = resolve("target/web/shots");
 const pageUrl = pathToFileURL(resolve("target/web/guideway.html")).href;
-const site = resolve("crates/guideway/examples/site.lif.json");
-for (const made of [folder, shots]) mkdirSync(made, { recursive: true });
-
-const guideway = (...args) => execFileSync(command, args, { stdio: "pipe" });
-const browser = await chromium.launch({
-  executablePath: process.env["GUIDEWAY_CHROMIUM"] ?? "/usr/bin/chromium",
-  args: ["--no-sandbox"],
-});
+const browser = await launch();
 
 /** A page at an address, whose every request beyond the file and its worker is a failure. */
 async function open(url, options = {}) {
@@ -61,20 +51,6 @@ function realFiles() {
   }
   return found;
 }
-
-/** The size and the compressed pixels of a PNG file: the same pixels have the same bytes. Its texts
- * name the view, whose last digit may differ: sine and cosine are others in a browser. */
-function pixels(png) {
-  const parts = [];
-  for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
-    const kind = png.toString("latin1", at + 4, at + 8);
-    const end = at + 8 + png.readUInt32BE(at);
-    if (kind === "IHDR" || kind === "IDAT") parts.push(png.subarray(at + 8, end));
-  }
-  return Buffer.concat(parts);
-}
-
-const isSame = (a, b) => pixels(a).equals(pixels(b));
 
 async function pngOf(page, look) {
   const text = await page.evaluate(async (look) => {
