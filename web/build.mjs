@@ -1,17 +1,18 @@
-// Builds the page: one HTML file with style and script, into which engine and layout are put.
-// Usage: node build.mjs FOLDER PAGE. The whole page goes to FOLDER/guideway.html, its parts go as
-// gzip to PAGE, from where the command takes them.
+// Builds the page, one HTML file with style and script into which engine and layout are put, and the
+// npm package with the element. Usage: node build.mjs FOLDER PAGE. The whole page goes to
+// FOLDER/guideway.html, its parts go as gzip to PAGE, from where the command takes them. The package
+// goes to dist beside this file.
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
-import { mkdir, readFile, stat, writeFile } from "node:fs/promises";
+import { copyFile, mkdir, readFile, rm, stat, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 
 const [folder, pageFolder] = process.argv.slice(2);
 const source = (name) => join(import.meta.dirname, "src", name);
 
-async function bundle(entry, plugins = []) {
+async function bundle(entry, options) {
   const built = await build({
     entryPoints: [source(entry)],
     bundle: true,
@@ -20,23 +21,30 @@ async function bundle(entry, plugins = []) {
     format: "iife",
     target: "es2022",
     legalComments: "none",
-    // The worker's engine comes by message, never by address.
-    define: { "import.meta.url": '""' },
-    plugins,
+    ...options,
   });
   return built.outputFiles[0].text;
 }
 
-const worker = await bundle("worker.ts");
-const workerSource = {
-  name: "worker-source",
+// The worker's engine comes by message, never by address.
+const worker = await bundle("worker.ts", { define: { "import.meta.url": '""' } });
+const elementStyle = await readFile(source("element.css"), "utf8");
+/** Modules whose content is a text. */
+const texts = { "worker-source": worker, "element-style": elementStyle };
+const textModules = {
+  name: "texts",
   setup({ onResolve, onLoad }) {
-    onResolve({ filter: /^worker-source$/ }, ({ path }) => ({ path, namespace: "worker" }));
-    onLoad({ filter: /.*/, namespace: "worker" }, () => ({ contents: worker, loader: "text" }));
+    onResolve({ filter: /^(worker-source|element-style)$/ }, ({ path }) => {
+      return { path, namespace: "texts" };
+    });
+    onLoad({ filter: /.*/, namespace: "texts" }, ({ path }) => {
+      return { contents: texts[path], loader: "text" };
+    });
   },
 };
+const plugins = [textModules];
 // A script must not contain the end of its own element.
-const script = (await bundle("main.ts", [workerSource])).replaceAll("</script", "<\\/script");
+const script = (await bundle("main.ts", { plugins })).replaceAll("</script", "<\\/script");
 const style = await readFile(source("style.css"), "utf8");
 const page = (await readFile(source("page.html"), "utf8"))
   .replace("/*STYLE*/", () => style)
@@ -61,3 +69,16 @@ await writeFile(join(pageFolder, "engine.wasm.gz"), packed);
 await writeFile(join(pageFolder, "page.html.gz"), gzipSync(page, { level: 9 }));
 const element = `<script type="text/plain" id="engine">${packed.toString("base64")}</script>`;
 await writeFile(join(folder, "guideway.html"), page.replace("<!--ENGINE-->", () => element));
+
+const dist = join(import.meta.dirname, "dist");
+await rm(dist, { recursive: true, force: true });
+await mkdir(dist);
+await writeFile(join(dist, "guideway.js"), await bundle("package.ts", { plugins, format: "esm" }));
+await writeFile(join(dist, "engine.wasm.gz"), packed);
+for (const license of ["LICENSE-APACHE", "LICENSE-MIT"]) {
+  await copyFile(join(import.meta.dirname, "..", license), join(dist, license));
+}
+const compiler = join(import.meta.dirname, "node_modules/.bin/tsc");
+const types = ["--noEmit", "false", "--declaration", "--emitDeclarationOnly", "--rootDir", "src"];
+const project = ["--project", import.meta.dirname, "--outDir", join(dist, "types")];
+execFileSync(compiler, [...project, ...types], { cwd: import.meta.dirname, stdio: "inherit" });

@@ -90,6 +90,12 @@ fn test() -> Result<()> {
         .env("RUSTDOCFLAGS", "-D warnings")
         .run()?;
     step::command(&mdbook).args(["build", "docs"]).run()?;
+    // The page that docs/web.md embeds.
+    build_with_workspace()?;
+    step::command(std::env::current_exe()?.with_file_name("guideway"))
+        .args(["share", "crates/guideway/examples/site.lif.json", "--quiet"])
+        .args(["-o", "target/book/site.html", "--color-by", "maxSpeed"])
+        .run()?;
     heading("packages of the crates");
     published::check()?;
     heading("licenses, sources and bans");

@@ -1,4 +1,4 @@
-//! Builds the engine and the page, and puts them where the command takes them from.
+//! Builds engine, page and npm package, and puts page and engine where the command takes them from.
 
 use std::path::{Path, PathBuf};
 
@@ -53,6 +53,7 @@ pub(super) fn page() -> Result<()> {
     sources::record()?;
     let page = Path::new(FOLDER).join("guideway.html");
     println!("\nthe page is in {}: open it in a browser", page.display());
+    println!("the npm package is in web: npm pack");
     println!("the command shares it as soon as it is built again: guideway share SITE");
     Ok(())
 }

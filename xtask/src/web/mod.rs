@@ -1,9 +1,10 @@
-//! `cargo xtask web`: builds the engine for browsers and the page around it, and tests both.
+//! `cargo xtask web`: builds the engine for browsers, the page and the npm package around it, and
+//! tests them.
 //!
 //! | module | input | output |
 //! |---|---|---|
 //! | `toolchain` | Debian packages | a compiler with the sources of the standard library |
-//! | `build` | `crates/guideway-web`, `web/` | `crates/guideway/page`, `target/web/guideway.html` |
+//! | `build` | `crates/guideway-web`, `web/` | `crates/guideway/page`, `target/web`, `web/dist` |
 //! | `sources` | the files that the page is made of | their hash, which says whether it is stale |
 //!
 //! The tests run the page in Debian's Chromium: `web/tests`.
@@ -30,12 +31,15 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
     }
 }
 
-/// Opens real files in the page, and compares its pictures with those of the command.
+/// Opens files in the page and the element, and compares their pictures with those of the command.
 fn test() -> Result<()> {
     heading("the page in a browser");
     if !step::command("chromium").args(["--version"]).succeeds() {
         apt_install(&["chromium"])?;
     }
     cargo(&["build", "--quiet", "--workspace", "--bin", "guideway"]).run()?;
-    step::command("node").args(["web/tests/browser.mjs"]).run()
+    for test in ["web/tests/browser.mjs", "web/tests/element.mjs"] {
+        step::command("node").args([test]).run()?;
+    }
+    Ok(())
 }
