@@ -7,7 +7,7 @@
 //! | `build` | `crates/guideway-web`, `web/` | `crates/guideway/page`, `target/web`, `web/dist` |
 //! | `sources` | the files that the page is made of | their hash, which says whether it is stale |
 //!
-//! The tests run the page in Debian's Chromium: `web/tests`.
+//! The tests run the page in Debian's Chromium and Firefox ESR: `web/tests`.
 
 mod build;
 mod sources;
@@ -33,13 +33,17 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
 
 /// Opens files in the page and the element, and compares their pictures with those of the command.
 fn test() -> Result<()> {
-    heading("the page in a browser");
-    if !step::command("chromium").args(["--version"]).succeeds() {
-        apt_install(&["chromium"])?;
+    heading("the page in browsers");
+    for browser in ["chromium", "firefox-esr"] {
+        if !step::command(browser).args(["--version"]).succeeds() {
+            apt_install(&[browser])?;
+        }
     }
     cargo(&["build", "--quiet", "--workspace", "--bin", "guideway"]).run()?;
-    for test in ["web/tests/browser.mjs", "web/tests/element.mjs"] {
-        step::command("node").args([test]).run()?;
+    for test in ["browser", "element", "firefox"] {
+        step::command("node")
+            .args([format!("web/tests/{test}.mjs")])
+            .run()?;
     }
     Ok(())
 }
