@@ -30,6 +30,8 @@ pub(super) fn work(file_bytes: usize) -> u64 {
 pub(super) struct ClipRegion<'a> {
     /// The corners of the boundary, in meters.
     corners: Vec<P>,
+    /// The inside is hidden instead of the outside.
+    is_inverted: bool,
     bounds: Bounds<f64>,
     around: Option<&'a Self>,
 }
@@ -38,12 +40,14 @@ pub(super) struct ClipRegion<'a> {
 pub(super) struct TooMuchWork;
 
 impl<'a> ClipRegion<'a> {
-    /// A region; `None` without corners. Takes from `work_left` what that costs.
+    /// A region inside of a boundary, or outside if it is inverted; `None` without corners. Takes
+    /// from `work_left` what that costs.
     ///
     /// # Errors
     /// When no work is left.
     pub(super) fn new(
         corners: impl ExactSizeIterator<Item = P>,
+        is_inverted: bool,
         around: Option<&'a Self>,
         work_left: &mut u64,
     ) -> Result<Option<Self>, TooMuchWork> {
@@ -51,6 +55,7 @@ impl<'a> ClipRegion<'a> {
         let corners: Vec<P> = corners.collect();
         Ok(Bounds::of_slice(&corners).map(|bounds| Self {
             corners,
+            is_inverted,
             bounds,
             around,
         }))
@@ -63,7 +68,7 @@ impl<'a> ClipRegion<'a> {
     pub(super) fn shows(&self, point: P, work_left: &mut u64) -> Result<bool, TooMuchWork> {
         take_work(self.corners.len(), work_left)?;
         match self.around {
-            _ if !self.contains(point) => Ok(false),
+            _ if self.contains(point) == self.is_inverted => Ok(false),
             Some(around) => around.shows(point, work_left),
             None => Ok(true),
         }
@@ -99,15 +104,15 @@ impl<'a> ClipRegion<'a> {
             }
         };
         for run in runs.iter() {
-            let far = Bounds::of_run(run).is_none_or(|run| !run.intersects(self.bounds));
-            if far {
+            let is_far = Bounds::of_run(run).is_none_or(|run| !run.intersects(self.bounds));
+            if is_far && !self.is_inverted {
                 close(&mut open);
                 continue;
             }
             for segment in run.array_windows() {
                 let curve = uniform::to_bezier(segment);
                 for (from, to, is_inside) in self.parts(&curve, work_left)? {
-                    match is_inside {
+                    match is_inside != self.is_inverted {
                         true if to - from == 1.0 => open.push_segment(segment),
                         true => open.push_bezier(&part(&curve, from, to)),
                         false => close(&mut open),
@@ -220,7 +225,7 @@ mod tests {
 
     fn region<'a>(corners: &[(f64, f64)], around: Option<&'a ClipRegion<'a>>) -> ClipRegion<'a> {
         let corners = polygon(corners).into_iter();
-        let region = ClipRegion::new(corners, around, &mut 1_000_000);
+        let region = ClipRegion::new(corners, false, around, &mut 1_000_000);
         region.ok().flatten().expect("a region")
     }
 
@@ -286,6 +291,23 @@ mod tests {
     }
 
     #[test]
+    fn an_inverted_boundary_hides_its_inside() {
+        let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
+        let around = region(&[(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)], None);
+        let mut hole = region(&square, Some(&around));
+        hole.is_inverted = true;
+        assert_ends(
+            &cut(&hole, &line((-9.0, 1.0), (9.0, 1.0))),
+            &[[(-5.0, 1.0), (0.0, 1.0)], [(2.0, 1.0), (5.0, 1.0)]],
+        );
+        assert_ends(&cut(&hole, &line((0.5, 1.0), (1.5, 1.0))), &[]);
+        let apart = [(-1.0, 3.0), (1.0, 3.0)];
+        assert_ends(&cut(&hole, &line(apart[0], apart[1])), &[apart]);
+        let shows = |x: f64| hole.shows(Point::new(x, 1.0), &mut 100).ok();
+        assert_eq!([-9.0, -1.0, 1.0].map(shows), [false, true, false].map(Some));
+    }
+
+    #[test]
     fn curves_are_cut_at_nested_boundaries() {
         // An arch that is 3 m high: y = 12 t (1 - t), x = 4 t.
         let mut arch = Runs::default();
@@ -312,6 +334,6 @@ mod tests {
         );
         assert!(shows(2.4, 11).is_none() && again.cut(&arch, &mut 3).is_err());
         let corners = polygon(&square(0.0, 1.0)).into_iter();
-        assert!(ClipRegion::new(corners, None, &mut 3).is_err());
+        assert!(ClipRegion::new(corners, false, None, &mut 3).is_err());
     }
 }

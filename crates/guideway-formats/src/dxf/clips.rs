@@ -2,11 +2,14 @@
 //!
 //! ```text
 //! INSERT <-- owner -- dictionary <-- owner -- dictionary ACAD_FILTER <-- owner -- SPATIAL_FILTER
+//! SPATIAL_FILTER <-- owner -- dictionary <-- owner -- XRECORD of an inverted boundary
 //! ```
 //!
 //! A boundary is a polygon in the drawing as it was when the block was clipped, however the
-//! reference moved since. Two matrices lead from there to the block. Source: the DXF reference, and
-//! the experiments of ezdxf's author ("Exploring the transformation behavior of SPATIAL_FILTER").
+//! reference moved since. Two matrices lead from there to the block. An inverted boundary hides
+//! its inside. It is in an XRECORD; the SPATIAL_FILTER has then a polygon for programs that know no
+//! inverted ones, of which AutoCAD leaves corners out. Source: the DXF reference, and the
+//! experiments of ezdxf's author ("Exploring the transformation behavior of SPATIAL_FILTER").
 
 use std::collections::HashMap;
 
@@ -31,10 +34,26 @@ pub(super) struct Clips<'b> {
 
 /// A boundary that clips a reference to a block.
 pub(super) enum Boundary {
-    /// Its corners, in the coordinates of the block.
-    Corners(Vec<Vector3>),
+    /// Its polygon.
+    Known {
+        /// In the coordinates of the block.
+        corners: Vec<Vector3>,
+        /// The inside is hidden instead of the outside.
+        is_inverted: bool,
+    },
     /// The reason why it is not known.
     Unknown(&'static str),
+}
+
+/// A SPATIAL_FILTER.
+struct Filter<'b> {
+    /// The handle of the dictionary that owns it.
+    owner: &'b [u8],
+    /// The handle of its own dictionary; empty without one.
+    dictionary: &'b [u8],
+    corners: Vec<Vector3>,
+    /// From the coordinates of its corners to those of the block.
+    to_block: Option<Affine3>,
 }
 
 impl<'b> Clips<'b> {
@@ -48,10 +67,13 @@ impl<'b> Clips<'b> {
         record: &mut Record<'b>,
     ) -> Result<(), Problem> {
         let mut owners: HashMap<&[u8], &[u8]> = HashMap::new();
-        let mut boundaries: Vec<(&[u8], Boundary)> = Vec::new();
+        let mut filters: Vec<Filter<'b>> = Vec::new();
+        // By the handle of the dictionary of the filter.
+        let mut inverted: HashMap<&[u8], Vec<Vector3>> = HashMap::new();
         let wanted = |kind: &[u8], code| match kind {
             b"DICTIONARY" => matches!(code, 5 | 102 | 330),
-            b"SPATIAL_FILTER" => matches!(code, 10 | 20 | 40 | 71 | 102 | 330),
+            b"SPATIAL_FILTER" => matches!(code, 10 | 20 | 40 | 71 | 102 | 330 | 360),
+            b"XRECORD" => matches!(code, 10 | 20 | 102 | 330),
             _ => false,
         };
         while records.has_more_in_section() && records.read(record, wanted)? {
@@ -62,19 +84,26 @@ impl<'b> Clips<'b> {
                 }
                 // Group code 71 switches the boundary off with 0.
                 b"SPATIAL_FILTER" if record.int(71) != Some(0) => {
-                    boundaries.push((owner, boundary(record)));
+                    filters.push(Filter::of(record, owner));
+                }
+                b"XRECORD" if !owner.is_empty() => {
+                    if keep_inverted(record) {
+                        inverted.insert(owner, corners(record));
+                    }
                 }
                 _ => {}
             }
         }
-        for (mut owner, boundary) in boundaries {
+        for filter in filters {
+            let mut reference = filter.owner;
             for _ in 1..OWNERS {
-                owner = owners.get(owner).copied().unwrap_or_default();
+                reference = owners.get(reference).copied().unwrap_or_default();
             }
-            match owner {
+            match reference {
                 b"" | b"0" => self.lost += 1,
-                owner => {
-                    self.boundaries.insert(owner, boundary);
+                reference => {
+                    let hidden = inverted.remove(filter.dictionary);
+                    self.boundaries.insert(reference, filter.boundary(hidden));
                 }
             }
         }
@@ -87,39 +116,67 @@ impl<'b> Clips<'b> {
     }
 }
 
-/// The boundary of a SPATIAL_FILTER.
-fn boundary(record: &Record<'_>) -> Boundary {
-    // An inverted boundary is kept in a record of its own, in a dictionary of the boundary.
-    let mut groups = record.all(102).map(|pair| pair.text());
-    if groups.any(|group| group == b"{ACAD_XDICTIONARY") {
-        return Boundary::Unknown("it hides what is inside");
+impl<'b> Filter<'b> {
+    fn of(record: &Record<'b>, owner: &'b [u8]) -> Self {
+        // Before the matrices comes the distance of a plane in front, if there is one.
+        let numbers = record.all(40).filter_map(|pair| record.real_of(pair));
+        let numbers: Vec<f64> = numbers.collect();
+        let matrices = numbers.last_chunk::<{ 2 * MATRIX }>();
+        let to_block = matrices.and_then(|matrices| {
+            let (to_block, to_boundary) = matrices.split_at(MATRIX);
+            Some(matrix(to_block).after(&matrix(to_boundary).inverse()?))
+        });
+        Self {
+            owner,
+            dictionary: record.text(360).unwrap_or_default().trim_ascii(),
+            corners: corners(record),
+            to_block,
+        }
     }
-    let mut corners = record.vectors(10);
-    if let [min, max] = corners[..] {
-        corners = vec![
-            min,
-            Vector3::new(max.x, min.y, 0.0),
-            max,
-            Vector3::new(min.x, max.y, 0.0),
-        ];
+
+    /// The boundary; that of the corners `hidden`, where they are stated.
+    fn boundary(self, hidden: Option<Vec<Vector3>>) -> Boundary {
+        let is_inverted = hidden.is_some();
+        let mut corners = hidden.unwrap_or(self.corners);
+        if let [min, max] = corners[..] {
+            corners = vec![
+                min,
+                Vector3::new(max.x, min.y, 0.0),
+                max,
+                Vector3::new(min.x, max.y, 0.0),
+            ];
+        }
+        match self.to_block {
+            _ if corners.len() < 3 => Boundary::Unknown("its corners are not stated"),
+            Some(to_block) => Boundary::Known {
+                corners: corners.into_iter().map(|p| to_block.point(p)).collect(),
+                is_inverted,
+            },
+            None => Boundary::Unknown("its place in the block is not stated"),
+        }
     }
-    // Before the matrices comes the distance of a plane in front, if there is one.
-    let numbers = record.all(40).filter_map(|pair| record.real_of(pair));
-    let numbers: Vec<f64> = numbers.collect();
-    let matrices = numbers.last_chunk::<{ 2 * MATRIX }>();
-    let to_block = matrices.and_then(|matrices| {
-        let (to_block, to_boundary) = matrices.split_at(MATRIX);
-        Some(matrix(to_block).after(&matrix(to_boundary).inverse()?))
+}
+
+/// The corners of a record; none if a number is malformed.
+fn corners(record: &Record<'_>) -> Vec<Vector3> {
+    let corners = record.vectors(10);
+    match record.bad_code.get() {
+        Some(_) => Vec::new(),
+        None => corners,
+    }
+}
+
+/// Keeps the pairs of an XRECORD that are the corners of an inverted boundary. Returns `true` if it
+/// has such a boundary.
+fn keep_inverted(record: &mut Record<'_>) -> bool {
+    let mut is_in_boundary = false;
+    record.pairs.retain(|pair| {
+        if pair.code == 102 {
+            is_in_boundary = pair.text() == b"ACAD_INVERTEDCLIP_ROUNDTRIP";
+        }
+        is_in_boundary
     });
-    match to_block {
-        _ if corners.len() < 3 || record.bad_code.get().is_some() => {
-            Boundary::Unknown("its corners are not stated")
-        }
-        Some(to_block) => {
-            Boundary::Corners(corners.into_iter().map(|p| to_block.point(p)).collect())
-        }
-        None => Boundary::Unknown("its place in the block is not stated"),
-    }
+    !record.pairs.is_empty()
 }
 
 /// The map of a matrix as DXF writes it: per coordinate of the image three factors and an offset.

@@ -178,7 +178,7 @@ impl<'a> EntityMapper<'a> {
         let pieces = pieces.unwrap_or_else(|| vec![runs.clone()]);
         match &pieces[..] {
             [] => {
-                let detail = "it is outside of the boundary that clips its block (XCLIP)";
+                let detail = "the boundary that clips its block hides it (XCLIP)";
                 self.refuse(entity, context, Code::NotDrawn, detail, at)
             }
             [piece] => {
@@ -324,10 +324,13 @@ impl<'a> EntityMapper<'a> {
                     .after(&insert.transform)
                     .after(&Affine3::translation(Vector3::ZERO - base));
                 let region = match boundary {
-                    Some(Boundary::Corners(corners)) => {
+                    Some(Boundary::Known {
+                        corners,
+                        is_inverted,
+                    }) => {
                         let corners = corners.iter().map(|&p| transform.point(p).xy());
-                        let work_left = &mut self.clip_work_left;
-                        let region = ClipRegion::new(corners, context.region, work_left);
+                        let (around, work) = (context.region, &mut self.clip_work_left);
+                        let region = ClipRegion::new(corners, *is_inverted, around, work);
                         self.within_work(region, at).flatten()
                     }
                     _ => None,

@@ -161,6 +161,11 @@ fn reports_and_skips_hidden_entities() {
 /// A block of two lines, references to it, and a boundary that clips the reference B1, drawn when
 /// the reference lay at (5, 5).
 fn clipped(inserts: &str, boundary: &str) -> Layout {
+    clipped_with(inserts, boundary, "")
+}
+
+/// The same, with further objects.
+fn clipped_with(inserts: &str, boundary: &str, objects: &str) -> Layout {
     let block = "0 BLOCK\n2 RACK\n10 0\n20 0\n0 LINE\n5 A\n10 0\n20 0\n11 10\n21 0\n\
                  0 LINE\n5 Z\n10 0\n20 3\n11 10\n21 3\n0 TEXT\n5 T\n1 Dock\n10 9\n20 0\n0 ENDBLK\n\
                  0 BLOCK\n2 HALL\n10 0\n20 0\n0 INSERT\n5 B1\n2 RACK\n10 5\n20 5\n0 ENDBLK";
@@ -172,7 +177,8 @@ fn clipped(inserts: &str, boundary: &str) -> Layout {
         block,
         &format!(
             "{inserts}0 ENDSEC\n0 SECTION\n2 OBJECTS\n0 DICTIONARY\n5 D1\n330 B1\n0 DICTIONARY\n\
-             5 D2\n330 D1\n0 SPATIAL_FILTER\n5 F1\n330 D2\n{boundary}71 1\n72 0\n73 0\n{}{}",
+             5 D2\n330 D1\n0 SPATIAL_FILTER\n5 F1\n330 D2\n{boundary}71 1\n72 0\n73 0\n\
+             {}{}{objects}",
             rows(-5.0),
             rows(0.0)
         ),
@@ -220,21 +226,56 @@ fn clipped_blocks_are_cut_at_their_boundary() {
 }
 
 #[test]
-fn inverted_and_broken_boundaries_are_found() {
+fn inverted_boundaries_hide_their_inside() {
     let insert = "0 INSERT\n5 B1\n2 RACK\n10 5\n20 5\n";
-    for (boundary, reason) in [
-        (
-            "102 {ACAD_XDICTIONARY\n360 X\n102 }\n70 2\n10 7\n20 4\n10 11\n20 6\n",
-            "inside",
-        ),
-        ("70 1\n10 7\n20 4\n", "corners"),
-        ("70 2\n10 7\n20 x\n10 11\n20 6\n", "corners"),
+    // AutoCAD writes this one for programs that know no inverted boundaries, and leaves corners out.
+    let filter = "102 {ACAD_XDICTIONARY\n360 X\n102 }\n70 3\n10 7\n20 6\n10 -9\n20 6\n\
+                  10 7\n20 5.9\n";
+    let record = |corners: &str| {
+        format!(
+            "0 DICTIONARY\n5 X\n330 F1\n3 ACAD_XREC_ROUNDTRIP\n360 R\n0 XRECORD\n5 R\n\
+             102 {{ACAD_REACTORS\n330 F9\n102 }}\n330 X\n100 AcDbXrecord\n280 1\n\
+             102 ACAD_INVERTEDCLIP_ROUNDTRIP\n{corners}\
+             102 ACAD_INVERTEDCLIP_ROUNDTRIP_COMPARE\n10 0\n20 0\n10 1\n20 0\n10 1\n20 1\n"
+        )
+    };
+    // From (2, -1) to (6, 1) in the block, as two and as four corners.
+    for corners in [
+        "10 7\n20 4\n30 0\n10 11\n20 6\n30 0\n",
+        "10 7\n20 4\n10 7\n20 6\n10 11\n20 6\n10 11\n20 4\n",
     ] {
+        let layout = clipped_with(insert, filter, &record(corners));
+        for (id, from, to) in [("B1/A [1]", 0.0, 2.0), ("B1/A [2]", 6.0, 10.0)] {
+            let (start, end) = ends(&layout, id);
+            assert_near(start, 5.0 + from, 5.0);
+            assert_near(end, 5.0 + to, 5.0);
+        }
+        let (start, end) = ends(&layout, "B1/Z");
+        assert_near(start, 5.0, 8.0);
+        assert_near(end, 15.0, 8.0);
+        assert!(layout.notes.iter().any(|note| note.text == "Dock"));
+        assert!(!codes(&layout).contains(&Code::ApproximateShape));
+    }
+    // Another dictionary of a boundary inverts nothing.
+    let plain = record("").replace("INVERTEDCLIP", "OTHER");
+    let rectangle = "102 {ACAD_XDICTIONARY\n360 X\n102 }\n10 7\n20 4\n10 11\n20 6\n";
+    let (start, end) = ends(&clipped_with(insert, rectangle, &plain), "B1/A");
+    assert_near(start, 7.0, 5.0);
+    assert_near(end, 11.0, 5.0);
+}
+
+#[test]
+fn broken_boundaries_are_found() {
+    let insert = "0 INSERT\n5 B1\n2 RACK\n10 5\n20 5\n";
+    for boundary in ["70 1\n10 7\n20 4\n", "70 2\n10 7\n20 x\n10 11\n20 6\n"] {
         let layout = clipped(insert, boundary);
-        assert_eq!(layout.paths.len(), 2, "{reason}");
+        assert_eq!(layout.paths.len(), 2, "{boundary}");
         let found = layout.diagnostics.iter();
         let found = found.filter(|d| d.code == Code::ApproximateShape);
         let found: Vec<&str> = found.map(|d| d.message.as_str()).collect();
-        assert!(found.len() == 1 && found[0].contains(reason), "{found:?}");
+        assert!(
+            found.len() == 1 && found[0].contains("corners"),
+            "{found:?}"
+        );
     }
 }
