@@ -16,7 +16,7 @@ use super::shape::{Insert, Polyline, Shape, Vertex, plane};
 use super::style::Layers;
 use super::text::TextDecoder;
 use crate::Problem;
-use crate::pair_reader::StrayLines;
+use crate::pair_reader::{Pair, StrayLines};
 
 /// A scanned drawing.
 #[derive(Default)]
@@ -256,7 +256,14 @@ impl<'b> Drawing<'b> {
                 };
                 return Ok(Some(entity));
             }
-            other => shape(other, record, &self.layers.texts),
+            other => {
+                // A HELIX is a spline, and after that the turns that it was made from.
+                let pairs = &record.pairs;
+                let helix = |pair: &Pair<'_>| pair.code == 100 && pair.text() == b"AcDbHelix";
+                let turns = pairs.iter().position(helix);
+                record.pairs.truncate(turns.unwrap_or(usize::MAX));
+                shape(other, record, &self.layers.texts)
+            }
         };
         Ok(Some(Entity::of(kind, record, &mut self.layers, shape)))
     }

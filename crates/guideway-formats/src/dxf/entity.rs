@@ -31,7 +31,7 @@ pub(super) struct Entity<'b> {
 }
 
 /// The supported kinds of entities.
-const KINDS: [&str; 17] = [
+const KINDS: [&str; 18] = [
     "LINE",
     "ARC",
     "CIRCLE",
@@ -39,6 +39,7 @@ const KINDS: [&str; 17] = [
     "LWPOLYLINE",
     "POLYLINE",
     "SPLINE",
+    "HELIX",
     "INSERT",
     "MLINE",
     "SOLID",

@@ -5,7 +5,7 @@
 //! | tokenize | bytes | pairs of group code and value | `crate::pair_reader` |
 //! | group | pairs | records (group code 0 up to the next one) | `records` |
 //! | parse | records | entities, layers, blocks | `drawing`, `entity`, `shape`, `outlines`, `hatch`, `style`, `header`, `clips`, `text` |
-//! | map | entities, INSERTs | paths with colors | `entity_mapper`, `clip_region`, `shapes`, `fit_spline` |
+//! | map | entities, INSERTs | paths with colors | `entity_mapper`, `clip_region`, `shapes`, `closed_spline`, `fit_spline` |
 //! | note | texts, points, INSERTs | notes of the layout | `notes` |
 //! | write | layout | sections of pairs | `write`, `write_sections`, `pair_writer` |
 //!
@@ -15,6 +15,7 @@
 mod affine3;
 mod clip_region;
 mod clips;
+mod closed_spline;
 mod drawing;
 mod entity;
 mod entity_counts;

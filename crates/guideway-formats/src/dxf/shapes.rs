@@ -5,6 +5,7 @@ use guideway_layout::{Code, WrittenCurve};
 use guideway_spline::{Affine as Affine2, MAX_DEGREE, Runs};
 
 use super::affine3::{Affine3, Vector3};
+use super::closed_spline::{close, report_open};
 use super::fit_spline::append_fit_spline;
 use super::shape::{Arc, Polyline, Spline, Vertex};
 use crate::builder::{Builder, PlaceFn};
@@ -173,49 +174,12 @@ pub(super) fn append_spline(
         weights: valid_weights(builder, shape, at),
         points,
     };
-    if shape.is_closed {
-        unroll(&mut spline);
-    }
+    close(builder, shape.is_closed, &mut spline, at);
     let is_drawn = builder.append_spline(&spline, at, runs);
+    if shape.is_closed {
+        report_open(builder, runs, at);
+    }
     Ok(is_drawn.then(|| spline.into_written()))
-}
-
-/// Unrolls a periodic curve: its knots cover one period, and its n control points are listed once.
-///
-/// If the first knot occurs m times, there are n + m knots, of which the last m end the period.
-/// Degree p needs p + 1 - m further knots before and after, each a period away from one that is
-/// listed, and as many repeated control points, less one. Source: Open CASCADE, `BSplCLib`.
-fn unroll(spline: &mut spline::Spline) {
-    let (degree, knots, count) = (spline.degree, &spline.knots, spline.points.len());
-    let Some((first, last)) = knots.first().zip(knots.last()) else {
-        return;
-    };
-    let multiplicity = knots.iter().take_while(|knot| *knot == first).count();
-    let missing = degree + 1 - multiplicity.min(degree + 1);
-    let is_unrolled = missing == 0 || count < missing || count < multiplicity;
-    if is_unrolled || knots.len() != count + multiplicity {
-        return;
-    }
-    let period = last - first;
-    // The knots of one period, without its end.
-    let within = &knots[..count];
-    let before = within[count - missing..].iter().map(|knot| knot - period);
-    let after = within[multiplicity..].iter().map(|knot| knot + period);
-    let unrolled = before
-        .chain(knots.iter().copied())
-        .chain(after.take(missing));
-    let unrolled: Vec<f64> = unrolled.collect();
-    let points = count + missing;
-    if unrolled.len() != points + degree + 1 {
-        return;
-    }
-    spline.knots = unrolled;
-    let repeated = spline.points.iter().copied().cycle().take(points);
-    spline.points = repeated.collect();
-    if !spline.weights.is_empty() {
-        let repeated = spline.weights.iter().copied().cycle().take(points);
-        spline.weights = repeated.collect();
-    }
 }
 
 /// The weights; empty (1 for each point) if absent or invalid, the latter with a finding.

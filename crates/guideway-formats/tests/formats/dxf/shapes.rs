@@ -2,7 +2,7 @@
 
 use super::{LINE, assert_near, drawing, text, vertices};
 use crate::common::{codes, ends, read};
-use guideway_layout::Code;
+use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
 #[test]
@@ -176,4 +176,60 @@ fn hatches_are_outlines_unless_other_entities_draw_them() {
     // Without a number of boundaries.
     let broken = hatch(&format!("{square}97 0\n"));
     assert_eq!(codes(&broken), [Code::MissingField]);
+}
+
+#[test]
+fn knots_count_where_the_closed_flag_contradicts_them() {
+    let points = "10 0\n20 0\n10 4\n20 0\n10 4\n20 4\n10 0\n20 4\n10 -2\n20 2\n";
+    let spline = |kind: &str, flags: i32, knots: &[i32], points: &str| {
+        let knots: String = knots.iter().map(|knot| format!("40 {knot}\n")).collect();
+        let entity = format!("0 {kind}\n5 A\n70 {flags}\n71 3\n{knots}{points}");
+        drawing("", "", &entity)
+    };
+    let apart = |layout: &Layout| {
+        let (start, end) = ends(layout, "A");
+        start.distance(end)
+    };
+    let (clamped, period) = ([0, 0, 0, 0, 1, 2, 2, 2, 2], [0, 1, 2, 3, 4, 5]);
+    // All knots are there: the curve is as without the flag, as AutoCAD and ezdxf draw it.
+    let flagged = spline("SPLINE", 11, &clamped, points);
+    let open = spline("SPLINE", 8, &clamped, points);
+    assert_eq!(vertices(&flagged, "A"), vertices(&open, "A"));
+    assert_eq!(codes(&flagged), [Code::Implausible]);
+    assert_eq!(codes(&open), []);
+    // One period without the flag, and none at all with it.
+    let unflagged = spline("SPLINE", 8, &period, points);
+    assert_eq!(
+        vertices(&unflagged, "A"),
+        vertices(&spline("SPLINE", 11, &period, points), "A")
+    );
+    assert!(codes(&unflagged).contains(&Code::BadKnots));
+    let without_knots = spline("SPLINE", 1, &[], points);
+    assert!(apart(&without_knots) < 1e-12);
+    assert!(codes(&without_knots).contains(&Code::MissingKnots));
+    // Control points that are repeated already, and ends that are one point.
+    let wrapped = format!("{points}10 0\n20 0\n10 4\n20 0\n10 4\n20 4\n");
+    let again = spline("SPLINE", 1, &[], &wrapped);
+    for (a, b) in vertices(&again, "A")
+        .iter()
+        .zip(vertices(&without_knots, "A"))
+    {
+        assert!(a.distance(b) < 1e-12, "{a:?} {b:?}");
+    }
+    let met = spline(
+        "SPLINE",
+        1,
+        &clamped,
+        &points.replace("10 -2\n20 2", "10 0\n20 0"),
+    );
+    assert!(apart(&met) < 1e-12);
+    assert_eq!(codes(&met), []);
+    // A helix is a spline, and has points of its own behind that.
+    let turns = "100 AcDbHelix\n10 9\n20 9\n11 9\n21 9\n12 0\n22 0\n32 1\n40 1\n41 3\n42 1\n";
+    let helix = spline("HELIX", 0, &clamped, &format!("{points}{turns}"));
+    assert_eq!(vertices(&helix, "A"), vertices(&open, "A"));
+    // Fit points alone.
+    let fit = "11 0\n21 0\n11 4\n21 0\n11 4\n21 4\n";
+    assert!(apart(&spline("SPLINE", 1, &[], fit)) < 1e-12);
+    assert!(apart(&spline("SPLINE", 0, &[], fit)) > 5.0);
 }
