@@ -54,10 +54,17 @@ impl TextDecoder {
     /// Windows-1252 stands for a missing or unknown page.
     ///
     /// Before release 2007 the code page counts. But many programs wrote UTF-8 even then, and a
-    /// whole file of another encoding is UTF-8 by chance only if it has very few letters.
+    /// whole file of another encoding is UTF-8 by chance only if it has very few letters. In the
+    /// pages of East Asia, such letters look like two bytes of UTF-8; their own have three there.
     pub(super) fn new(release: &str, page: Option<&[u8]>, bytes: &[u8]) -> Self {
         let page = page.and_then(code_page);
-        let is_utf8 = page.is_none() || release >= UTF8_SINCE || str::from_utf8(bytes).is_ok();
+        let is_by_chance = |text: &str| {
+            let is_east_asian =
+                matches!(page, Some(CodePage::Known(page)) if !page.is_single_byte());
+            is_east_asian && text.chars().all(|letter| letter < '\u{800}')
+        };
+        let is_text = || str::from_utf8(bytes).is_ok_and(|text| !is_by_chance(text));
+        let is_utf8 = page.is_none() || release >= UTF8_SINCE || is_text();
         Self {
             page: page.unwrap_or(CodePage::Known(WINDOWS_1252)),
             prefers_utf8: is_utf8,

@@ -30,6 +30,9 @@ fn layers_are_decoded_by_code_page() {
         ("dos850", b"W\x84nde", "Wände"),
         ("ANSI_936", b"\\M+5BBF5\\M+5BCDC", "货架"),
         ("ANSI_936", "货架".as_bytes(), "货架"),
+        // UTF-8 by chance.
+        ("ANSI_936", b"\xC7\xBD", "墙"),
+        ("ANSI_1252", "Wände".as_bytes(), "Wände"),
     ] {
         let head = format!(
             "0 SECTION\n2 HEADER\n9 $ACADVER\n1 AC1015\n9 $INSUNITS\n70 6\n9 $DWGCODEPAGE\n\
