@@ -81,7 +81,10 @@ fn root<'t>(source: &Source<'_>, text: &'t str) -> Result<Root<'t>, ReadError> {
     if let Some(kind) = root.features.wrong_type() {
         return Err(fail("features", "an array", kind.to_string()));
     }
-    let empty = root.features.is_absent()
+    // The geometry of a feature may be null.
+    let is_feature = root.kind.get().is_some_and(|kind| kind == "Feature");
+    let empty = !is_feature
+        && root.features.is_absent()
         && root.geometry.is_absent()
         && root.coordinates.is_absent()
         && root.geometries.is_absent();

@@ -1,6 +1,6 @@
 //! Properties of GeoJSON features as columns: types, whole numbers, limits, metadata of Nav2.
 
-use crate::common::{codes, read_real, real, shared};
+use crate::common::{codes, read, read_real, real, shared};
 use crate::geojson::{collection, feature};
 use guideway_layout::{Code, Quantity, Value};
 
@@ -92,6 +92,14 @@ fn features_without_a_place_are_no_error() {
     ));
     assert_eq!(codes(&layout), [Code::NotDrawn]);
     assert_eq!((layout.path_count(), layout.refused.len()), (1, 0));
+    // So is a feature that is the whole file, or a line of it.
+    let alone = r#"{"type": "Feature", "properties": {"a": 1}, "geometry": null}"#;
+    let line = feature("", "LineString", "[[0, 0], [1, 0]]").replace('\n', " ");
+    for (text, paths) in [(alone.to_owned(), 0), (format!("{alone}\n{line}\n"), 1)] {
+        let layout = read(&text);
+        assert!(codes(&layout).contains(&Code::NotDrawn));
+        assert_eq!((layout.path_count(), layout.refused.len()), (paths, 0));
+    }
 }
 
 #[test]
