@@ -3,7 +3,7 @@
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
-use guideway::layout::{UserError, shown_lines};
+use guideway::layout::{UserError, is_hidden, shown_lines};
 use guideway::{SaveError, replace_file};
 use serde::Serialize;
 use serde_json::json;
@@ -149,10 +149,29 @@ fn envelope<T: Serialize>(name: &str, version: u32, body: &T) -> Result<Vec<u8>,
         },
         body,
     };
-    let bytes = serde_json::to_vec_pretty(&whole);
-    let mut bytes = bytes.map_err(|error| json_error(&error, "Omit --json"))?;
-    bytes.push(b'\n');
-    Ok(bytes)
+    json_text(&whole).map_err(|error| json_error(&error, "Omit --json"))
+}
+
+/// A value as JSON with a line break at its end. Characters of texts that would steer a terminal or
+/// reverse the direction of text are escapes, which stand for the same value.
+///
+/// # Errors
+/// When the value has no JSON.
+pub(crate) fn json_text(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
+    let plain = serde_json::to_string_pretty(value)? + "\n";
+    let steers = |c: char| is_hidden(c) && c != '\n';
+    if !plain.contains(steers) {
+        return Ok(plain.into_bytes());
+    }
+    let mut text = String::with_capacity(plain.len() + 8);
+    for c in plain.chars() {
+        match steers(c) {
+            // None of them is beyond the basic plane.
+            true => text += &format!("\\u{:04x}", u32::from(c)),
+            false => text.push(c),
+        }
+    }
+    Ok(text.into_bytes())
 }
 
 /// Saves a report in the form that `--json` prints.
@@ -189,11 +208,16 @@ pub(crate) fn print_for_people(text: &str) -> Result<(), UserError> {
 
 fn print_to(stdout: &mut impl Write, bytes: &[u8]) -> Result<(), UserError> {
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(UserError::new(
-            "stdout",
-            format!("cannot write to standard output: {error}"),
-            "Check the target of the redirection",
-        )),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(stdout_error(&error)),
         _ => Ok(()),
     }
+}
+
+/// Standard output cannot be written.
+pub(crate) fn stdout_error(error: &io::Error) -> UserError {
+    UserError::new(
+        "stdout",
+        format!("cannot write to standard output: {error}"),
+        "Check the target of the redirection",
+    )
 }

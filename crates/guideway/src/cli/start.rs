@@ -12,7 +12,7 @@ use guideway::layout::{UserError, shown_lines};
 
 use super::colors::When;
 use super::error::{ERROR, Exit, parser_error};
-use super::output::Output;
+use super::output::{Output, stdout_error};
 use super::{limits, process};
 use crate::out_of_memory;
 
@@ -87,11 +87,18 @@ fn exit_from_parser(error: &clap::Error, args: &[OsString]) -> ExitCode {
         Output::new(true, false).error(&parser_error(error));
     } else {
         let text = error.render().to_string();
-        // Only a closed pipe can fail here, and its reader wants no more.
-        let _ = match shown_lines(&text) {
+        let printed = match shown_lines(&text) {
             Cow::Borrowed(_) => error.print(),
             Cow::Owned(shown) => io::stderr().write_all(shown.as_bytes()),
         };
+        // The reader of a closed pipe wants no more, and without standard error nobody listens.
+        if let Err(problem) = printed
+            && !error.use_stderr()
+            && problem.kind() != io::ErrorKind::BrokenPipe
+        {
+            Output::new(wants_json, false).error(&stdout_error(&problem));
+            return ExitCode::from(ERROR);
+        }
     }
     ExitCode::from(error.exit_code() as u8)
 }

@@ -32,7 +32,10 @@ fn names_do_not_steer_the_terminal() {
     let out = "o\u{1b}[31m.geojson";
     for args in [
         &["info", name][..],
+        &["info", name, "--json"],
         &["check", name],
+        &["check", name, "--format", "sarif"],
+        &["check", "b\u{9b}2J\u{1b}.json", "--json"],
         &["check", name, "b\u{9b}2J\u{1b}.json"],
         &["convert", name, out],
         &["convert", name, "o\u{1b}.xyz"],
@@ -211,6 +214,13 @@ fn full_standard_output_is_told_as_such() {
         let mut all = command();
         all.arg(args[0]).arg(site()).args(&args[1..]).stdout(full());
         assert_usage(&all.output().unwrap(), "room");
+    }
+    for args in [&["--help"][..], &["--version"], &["info", "--help"]] {
+        let mut all = command();
+        assert_usage(
+            &all.args(args).stdout(full()).output().unwrap(),
+            "standard output",
+        );
     }
 }
 

@@ -12,6 +12,7 @@ use super::findings::CheckedFile;
 use super::fingerprint::fingerprint;
 use crate::cli::error::{Exit, json_error};
 use crate::cli::input::{relative, resolved};
+use crate::cli::output::json_text;
 
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
@@ -78,10 +79,7 @@ pub(super) fn bytes(files: &[CheckedFile], exit: Exit) -> Result<Vec<u8>, UserEr
             "results": results,
         }],
     });
-    let bytes = serde_json::to_vec_pretty(&log);
-    let mut bytes = bytes.map_err(|error| json_error(&error, "Use another --format"))?;
-    bytes.push(b'\n');
-    Ok(bytes)
+    json_text(&log).map_err(|error| json_error(&error, "Use another --format"))
 }
 
 /// The number of findings by severity that the log does not list, if there are some.

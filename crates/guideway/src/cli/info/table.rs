@@ -1,6 +1,6 @@
 //! The `info` report as text.
 
-use guideway::layout::Quantity;
+use guideway::layout::{Quantity, shown_text};
 
 use super::columns::{Column, FrequentValue};
 use super::summary::{Kind, Summary};
@@ -79,7 +79,7 @@ impl Lines {
 
     /// The file with its size, or each of several on a line of its own.
     fn files(&mut self, of: &Summary) {
-        let name = |name: &String| single_line(name, 400);
+        let name = |name: &String| shown_text(name).into_owned();
         let size = of.file_bytes.map(bytes);
         match &of.files[..] {
             [one] => {
