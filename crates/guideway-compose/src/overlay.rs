@@ -4,10 +4,9 @@ use std::ops::Range;
 
 use guideway_cpu::{Areas, lay_areas};
 use guideway_scene::{DrawList, Frame, Rgba, Strip, TextLine, View};
-use guideway_spline::Point;
 
 use crate::blend::over;
-use crate::text::ShapedLine;
+use crate::text::{LinePlace, ShapedLine};
 
 /// A draw list, prepared for all strips of a view.
 pub(crate) struct PreparedOverlay {
@@ -59,37 +58,26 @@ struct StripCanvas<'a> {
 
 impl StripCanvas<'_> {
     fn draw_text(&mut self, text: &TextLine, line: &ShapedLine) {
-        let size_px = text.char_width_px / TextLine::CHAR_ASPECT;
-        // Letters reach less than their size above and below the middle of the line.
-        let middle = text.left_middle_px;
-        let (top, bottom) = (middle.y - 1.5 * size_px, middle.y + 1.5 * size_px);
+        let place = LinePlace::of(text);
+        // Letters and halos reach less than their size beyond the middle of the line.
+        let ends = [place.left_middle, place.end()];
+        let reach = 1.5 * place.size_px;
+        let top = ends[0].y.min(ends[1].y) - reach;
+        let bottom = ends[0].y.max(ends[1].y) + reach;
         if (bottom as i64) < self.rows.start || (top as i64) >= self.rows.end {
             return;
         }
-        let width_px = text.width_px();
-        if text.background.a > 0 {
-            let corner = middle - Point::new(0.0, 0.6 * size_px);
-            self.fill(corner, Point::new(width_px, 1.2 * size_px), text.background);
+        if text.halo.a > 0 {
+            let [r, g, b, a] = text.halo.to_u32().to_be_bytes();
+            line.rasterize_halo(&place, text.halo_px(), |x, y, coverage| {
+                self.blend(x, y, [r, g, b, (f32::from(a) * coverage).round() as u8]);
+            });
         }
         let [r, g, b, a] = text.color.to_u32().to_be_bytes();
-        line.rasterize(middle, size_px, width_px, |x, y, coverage| {
+        line.rasterize(&place, |x, y, coverage| {
             let alpha = (f32::from(a) * coverage).round() as u8;
             self.blend(x, y, [r, g, b, alpha]);
         });
-    }
-
-    /// Composites a rectangle whose edges are rounded to whole pixels.
-    fn fill(&mut self, corner: Point<f64>, size_px: Point<f64>, color: Rgba) {
-        let end = corner + size_px;
-        let (left, right) = (corner.x.round() as i64, end.x.round() as i64);
-        let (top, bottom) = (corner.y.round() as i64, end.y.round() as i64);
-        let width = i64::from(self.frame.size().width());
-        let color = color.to_u32().to_be_bytes();
-        for y in top.max(self.rows.start)..bottom.min(self.rows.end) {
-            for x in left.max(0)..right.min(width) {
-                self.blend(x, y, color);
-            }
-        }
     }
 
     /// Composites a color over one pixel of the picture; outside of the strip it has no effect.
@@ -106,6 +94,7 @@ impl StripCanvas<'_> {
 #[cfg(test)]
 mod tests {
     use guideway_scene::FrameSize;
+    use guideway_spline::Point;
 
     use super::*;
 
@@ -121,9 +110,10 @@ mod tests {
         list.texts.push(TextLine {
             text: "lé\u{10FFFD}".into(),
             left_middle_px: Point::new(40.0, 64.0),
+            angle_rad: 0.0,
             char_width_px: 12.0,
             color: Rgba::BLACK,
-            background: Rgba::opaque(0, 255, 0),
+            halo: Rgba::opaque(0, 255, 0),
         });
         list
     }
@@ -141,7 +131,13 @@ mod tests {
         let at = |x: usize, y: usize| frame.pixels()[y * 100 + x];
         assert_eq!((at(9, 70), at(10, 70)), ([255; 4], [255, 0, 0, 255]));
         assert_eq!((at(15, 59), at(15, 60)), ([255; 4], [255, 0, 0, 255]));
-        assert_eq!((at(39, 64), at(77, 64)), ([255; 4], [255; 4]));
+        assert_eq!((at(35, 64), at(80, 64)), ([255; 4], [255; 4]));
+        // The halo reaches beyond the letters, and not into the space between lines.
+        let halo = (30..90).flat_map(|x| (40..90).map(move |y| (x, y)));
+        let halo: Vec<_> = halo
+            .filter(|&(x, y)| at(x, y) == [0, 255, 0, 255])
+            .collect();
+        assert!(halo.len() > 100 && halo.iter().all(|&(_, y)| y > 50 && y < 80));
         let dark = |x: Range<usize>| {
             let pixels = x.flat_map(|x| (40..90).map(move |y| (x, y)));
             pixels.filter(|&(x, y)| at(x, y)[1] < 64).count()

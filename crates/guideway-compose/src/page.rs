@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use guideway_formats::svg::{PathData, Stroke, SvgWriter};
+use guideway_formats::svg::{PathData, Stroke, SvgText, SvgWriter};
 use guideway_scene::{Rgba, TextLine};
 use guideway_spline::Point;
 
@@ -48,7 +48,7 @@ pub(crate) trait Page {
     fn areas(&mut self, label: &str, color: Rgba, areas: &[Vec<Vec<Point<f64>>>])
     -> io::Result<()>;
 
-    /// A line of text, without its box.
+    /// A line of text with its halo.
     fn text(&mut self, text: &TextLine) -> io::Result<()>;
 
     /// An image. The matrix (a, b, c, d, e, f of SVG) maps the unit square, y down, to pixels.
@@ -98,11 +98,21 @@ impl<W: Write> Page for SvgWriter<'_, W> {
     }
 
     fn text(&mut self, text: &TextLine) -> io::Result<()> {
-        let height = text.char_width_px / TextLine::CHAR_ASPECT;
+        let height = text.height_px();
+        let middle = text.left_middle_px;
         // From the middle of a line to its baseline: half the height of a capital.
-        let at = text.left_middle_px + Point::new(0.0, 0.35 * height);
-        let (width, color) = (text.width_px(), text.color.to_u32());
-        SvgWriter::text(self, [at.x, at.y], height, width, color, &text.text)
+        let at = middle + Point::new(0.0, 0.35 * height);
+        // A stroke is as wide on both sides of the outlines of letters.
+        let halo = Stroke::new(text.halo.to_u32(), 2.0 * text.halo_px());
+        self.text_line(&SvgText {
+            at: [at.x, at.y],
+            height,
+            width: text.width_px(),
+            turned: (text.angle_rad.to_degrees(), [middle.x, middle.y]),
+            rgba: text.color.to_u32(),
+            halo: (text.halo.a > 0).then_some(halo),
+            text: &text.text,
+        })
     }
 
     fn image(&mut self, matrix: [f64; 6], image: &impl PageImage) -> io::Result<()> {

@@ -92,9 +92,10 @@ fn shapes() -> DrawList {
     list.texts.push(TextLine {
         text: "a name".into(),
         left_middle_px: Point::new(200.0, 64.0),
+        angle_rad: 0.0,
         char_width_px: 9.0,
         color: red,
-        background: Rgba::WHITE,
+        halo: Rgba::WHITE,
     });
     list
 }

@@ -3,7 +3,7 @@
 use std::io;
 
 use guideway_layout::PathRef;
-use guideway_scene::{DrawList, Scene, Style, TextLine, View};
+use guideway_scene::{DrawList, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use crate::page::Page;
@@ -71,12 +71,6 @@ pub(crate) fn write_draw_list(
         page.areas(label, fill.color, std::slice::from_ref(&fill.polygons))?;
     }
     for text in &list.texts {
-        if text.background.a > 0 {
-            let height = text.char_width_px / TextLine::CHAR_ASPECT;
-            let corner = text.left_middle_px - Point::new(0.0, 0.6 * height);
-            let other = corner + Point::new(text.width_px(), 1.2 * height);
-            page.rectangle([corner, other], text.background)?;
-        }
         page.text(text)?;
     }
     page.end_group()
@@ -85,7 +79,7 @@ pub(crate) fn write_draw_list(
 #[cfg(test)]
 mod tests {
     use guideway_formats::svg::{Stroke, SvgWriter};
-    use guideway_scene::Rgba;
+    use guideway_scene::{Rgba, TextLine};
 
     use super::*;
 
@@ -97,9 +91,10 @@ mod tests {
         list.texts.push(TextLine {
             text: "lé漢".into(),
             left_middle_px: Point::new(40.0, 64.0),
+            angle_rad: 0.0,
             char_width_px: 12.0,
             color: Rgba::BLACK,
-            background: Rgba::opaque(0, 255, 0),
+            halo: Rgba::opaque(0, 255, 0),
         });
         let mut out = Vec::new();
         let common = Stroke::new(0xFF, 1.0);

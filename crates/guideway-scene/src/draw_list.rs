@@ -33,17 +33,33 @@ pub struct TextLine {
     pub text: String,
     /// Middle of the left edge, in pixels.
     pub left_middle_px: Point<f64>,
+    /// Clockwise rotation about that point: the angle of the line below the horizontal.
+    pub angle_rad: f64,
     /// Width of a character, in pixels.
     pub char_width_px: f64,
     /// Color of the characters.
     pub color: Rgba,
-    /// Color of the box behind the characters; a transparent one draws no box.
-    pub background: Rgba,
+    /// Color of the halo around the characters, which sets them off from lines below; a transparent
+    /// one draws none.
+    pub halo: Rgba,
 }
 
 impl TextLine {
     /// Width of a character of common monospaced fonts, per unit of its height.
     pub const CHAR_ASPECT: f64 = 0.6;
+
+    /// Width of a halo, per unit of the height of the text.
+    const HALO: f64 = 0.17;
+
+    /// Height of the text, in pixels.
+    pub fn height_px(&self) -> f64 {
+        self.char_width_px / Self::CHAR_ASPECT
+    }
+
+    /// Width of the halo around each character, in pixels.
+    pub fn halo_px(&self) -> f64 {
+        Self::HALO * self.height_px()
+    }
 
     /// Width of the line, in pixels.
     pub fn width_px(&self) -> f64 {
@@ -147,9 +163,10 @@ mod tests {
         list.texts.push(TextLine {
             text: "a".into(),
             left_middle_px: p(1.0, 2.0),
+            angle_rad: 0.0,
             char_width_px: 7.0,
             color: Rgba::BLACK,
-            background: Rgba::WHITE,
+            halo: Rgba::WHITE,
         });
         let large = list.scaled(3.0);
         assert_eq!(large.fills[0].polygons[0][2], p(9.0, 15.0));

@@ -139,7 +139,8 @@ impl DisplaySettings {
         let label_size = self.decoration_style(px_per_point).label_size();
         MarkOptions {
             px_per_point,
-            arrows: self.has_arrows.then(|| self.line_rule(px_per_point)),
+            line_rule: self.line_rule(px_per_point),
+            arrows: self.has_arrows,
             symbols: self.has_symbols,
             labels: self.has_labels.then_some(label_size),
             of: MarkedKinds::default(),

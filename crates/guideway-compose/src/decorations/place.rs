@@ -112,7 +112,8 @@ fn visible_marks(
     let size = style.label_size();
     let options = MarkOptions {
         px_per_point: style.px_per_point,
-        arrows: (decorations.has_arrows && !scene.layout().is_drawing()).then_some(paths.line_rule),
+        line_rule: paths.line_rule,
+        arrows: decorations.has_arrows && !scene.layout().is_drawing(),
         symbols: decorations.has_nodes || decorations.has_stations,
         labels: decorations.has_labels.then_some(size),
         of: MarkedKinds::default(),
@@ -129,8 +130,9 @@ fn visible_marks(
     marks.nodes.retain(|&at| is_free(at));
     marks.stations.retain(|&at| is_free(at));
     let is_clear = |label: &Label| {
-        let label = size.label_box(label);
-        !occupied.iter().any(|bounds| bounds.intersects(label))
+        let boxes = size.label_boxes(label);
+        let is_hit = |bounds: &Bounds<f64>| boxes.iter().any(|label| label.intersects(*bounds));
+        !occupied.iter().any(is_hit)
     };
     marks.labels.retain(is_clear);
     marks

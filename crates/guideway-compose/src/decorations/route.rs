@@ -103,9 +103,10 @@ impl DrawnRoute {
         let mut line = TextLine {
             text: guideway_document::text_format::single_line(name, 40),
             left_middle_px: at + Point::new(ring_px + GAP_POINTS * point_px, 0.0),
+            angle_rad: 0.0,
             char_width_px: style.line_px() * TextLine::CHAR_ASPECT,
             color,
-            background: style.paper.with_opacity(LABEL_PAPER_OPACITY),
+            halo: style.paper.with_opacity(LABEL_PAPER_OPACITY),
         };
         let width_px = line.width_px();
         if line.left_middle_px.x + width_px > f64::from(view.size().width()) {

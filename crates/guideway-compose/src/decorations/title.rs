@@ -25,9 +25,10 @@ pub(super) fn title(
     let mut line = TextLine {
         text: text_format::single_line(text, fitting.min(MAX_CHARS)),
         left_middle_px: Point::new(0.0, 1.25 * line_px),
+        angle_rad: 0.0,
         char_width_px,
         color: style.ink,
-        background: Rgba::from_u32(0),
+        halo: Rgba::from_u32(0),
     };
     let width_px = line.width_px();
     line.left_middle_px.x = ((width - width_px) / 2.0).max(line_px / 2.0);

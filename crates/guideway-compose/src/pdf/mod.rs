@@ -16,7 +16,7 @@ use guideway_spline::{Point, uniform};
 use self::content::Content;
 use self::file::{Objects, text_string};
 use crate::page::{Page, PageImage};
-use crate::text::ShapedLine;
+use crate::text::{LinePlace, ShapedLine};
 
 /// Points of a page (1/72 inch) per pixel (1/96 inch).
 const POINTS_PER_PX: f64 = 0.75;
@@ -144,11 +144,21 @@ impl Page for PdfPage {
     }
 
     fn text(&mut self, text: &TextLine) -> io::Result<()> {
+        let (line, place) = (ShapedLine::new(&text.text), LinePlace::of(text));
+        if text.halo.a > 0 {
+            self.select(text.halo, "RG")?;
+            let content = self.content();
+            // A stroke is as wide on both sides of the outlines of letters.
+            content.width(2.0 * text.halo_px())?;
+            for glyph in line.outlines(&place) {
+                if content.glyph(&glyph)? {
+                    content.operator("S")?;
+                }
+            }
+        }
         self.select(text.color, "rg")?;
-        let size_px = text.char_width_px / TextLine::CHAR_ASPECT;
-        let line = ShapedLine::new(&text.text);
         let content = self.content();
-        for glyph in line.outlines(text.left_middle_px, size_px, text.width_px()) {
+        for glyph in line.outlines(&place) {
             if content.glyph(&glyph)? {
                 content.operator("f")?;
             }
@@ -289,9 +299,10 @@ mod tests {
         page.text(&TextLine {
             text: "o".into(),
             left_middle_px: p(10.0, 50.0),
+            angle_rad: 0.0,
             char_width_px: 12.0,
             color: Rgba::BLACK,
-            background: Rgba::from_u32(0),
+            halo: Rgba::from_u32(0),
         })
         .unwrap();
         let content = streams(&bytes(page)).remove(0);

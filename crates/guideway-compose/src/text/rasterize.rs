@@ -1,6 +1,7 @@
 //! Outlines of shaped glyphs, and their exact coverage per pixel.
 
 use ab_glyph_rasterizer::{Point as RasterPoint, Rasterizer, point};
+use guideway_scene::TextLine;
 use guideway_spline::Point;
 use skrifa::MetadataProvider;
 use skrifa::instance::{LocationRef, Size};
@@ -14,55 +15,74 @@ const BASELINE: f64 = 0.35;
 /// The box of a missing letter: left, bottom, right, top and line width, in the font size.
 const MISSING: [f64; 5] = [0.07, 0.0, 0.53, 0.7, 0.07];
 
+/// The place of a line of text in a picture.
+pub(crate) struct LinePlace {
+    /// Middle of its left end, in pixels.
+    pub(crate) left_middle: Point<f64>,
+    /// Clockwise rotation about that point.
+    pub(crate) angle_rad: f64,
+    /// The font size.
+    pub(crate) size_px: f64,
+    /// Its greatest width: a wider line is condensed.
+    pub(crate) max_width_px: f64,
+}
+
+impl LinePlace {
+    /// The place of a line of a draw list.
+    pub(crate) fn of(text: &TextLine) -> Self {
+        Self {
+            left_middle: text.left_middle_px,
+            angle_rad: text.angle_rad,
+            size_px: text.height_px(),
+            max_width_px: text.width_px(),
+        }
+    }
+
+    /// Middle of the right end of a line of the greatest width, in pixels.
+    pub(crate) fn end(&self) -> Point<f64> {
+        self.left_middle + self.direction() * self.max_width_px
+    }
+
+    fn direction(&self) -> Point<f64> {
+        Point::new(self.angle_rad.cos(), self.angle_rad.sin())
+    }
+}
+
 impl ShapedLine {
-    /// Draws the line at a font size, its left end at `left_middle`, at most `max_width_px` wide: a
-    /// wider line is condensed. Hands every covered pixel and its coverage (0 to 1) to `blend`.
+    /// Draws the line. Hands every covered pixel and its coverage (0 to 1) to `blend`.
     ///
     /// Cost: linear in the area of the letters.
-    pub(crate) fn rasterize(
-        &self,
-        left_middle: Point<f64>,
-        size_px: f64,
-        max_width_px: f64,
-        mut blend: impl FnMut(i64, i64, f32),
-    ) {
+    pub(crate) fn rasterize(&self, place: &LinePlace, mut blend: impl FnMut(i64, i64, f32)) {
+        let middle = place.left_middle.y;
+        let baseline = middle + BASELINE * place.size_px;
         // A baseline on a whole pixel keeps the feet of letters sharp.
-        let baseline = (left_middle.y + BASELINE * size_px).round();
-        for pen in self.pens((left_middle.x, baseline), size_px, max_width_px) {
+        let baseline = match place.angle_rad == 0.0 {
+            true => baseline.round(),
+            false => baseline,
+        };
+        for pen in self.pens(place, baseline - middle) {
             pen.rasterize(&mut blend);
         }
     }
 
-    /// The outlines of the glyphs of such a line.
-    pub(crate) fn outlines(
-        &self,
-        left_middle: Point<f64>,
-        size_px: f64,
-        max_width_px: f64,
-    ) -> impl Iterator<Item = Vec<Curve>> {
-        let baseline = left_middle.y + BASELINE * size_px;
-        let pens = self.pens((left_middle.x, baseline), size_px, max_width_px);
+    /// The outlines of the glyphs.
+    pub(crate) fn outlines(&self, place: &LinePlace) -> impl Iterator<Item = Vec<Curve>> {
+        let pens = self.pens(place, BASELINE * place.size_px);
         pens.map(|pen| pen.curves)
     }
 
-    /// Draws each glyph from the left end of a baseline.
-    fn pens(
-        &self,
-        (left, baseline): (f64, f64),
-        size_px: f64,
-        max_width_px: f64,
-    ) -> impl Iterator<Item = Pen> {
+    /// Draws each glyph from the left end of a baseline, which lies below the middle of the line.
+    fn pens(&self, place: &LinePlace, below_px: f64) -> impl Iterator<Item = Pen> {
+        let size_px = place.size_px;
         let natural_px = self.width * size_px;
-        let condense = match natural_px > max_width_px {
-            true => max_width_px / natural_px,
+        let condense = match natural_px > place.max_width_px {
+            true => place.max_width_px / natural_px,
             false => 1.0,
         };
+        let (start, along) = (place.left_middle, place.direction());
         self.glyphs.iter().map(move |glyph| {
-            let origin = Point::new(
-                left + glyph.x * size_px * condense,
-                baseline - glyph.y * size_px,
-            );
-            let mut pen = Pen::new(origin, condense);
+            let origin = Point::new(glyph.x * size_px * condense, below_px - glyph.y * size_px);
+            let mut pen = Pen::new((start, along), origin, condense);
             pen.draw(glyph, size_px);
             pen
         })
@@ -78,6 +98,9 @@ pub(crate) enum Curve {
 
 /// Collects an outline before the size of its raster is known.
 struct Pen {
+    /// Start and direction of the line.
+    line: (Point<f64>, Point<f64>),
+    /// Origin of the glyph from there, along and below the line.
     origin: Point<f64>,
     condense: f64,
     curves: Vec<Curve>,
@@ -86,8 +109,9 @@ struct Pen {
 }
 
 impl Pen {
-    fn new(origin: Point<f64>, condense: f64) -> Self {
+    fn new(line: (Point<f64>, Point<f64>), origin: Point<f64>, condense: f64) -> Self {
         Self {
+            line,
             origin,
             condense,
             curves: Vec::new(),
@@ -136,10 +160,11 @@ impl Pen {
 
     /// From units of the outline (pixels, y up) to pixels of the picture.
     fn at(&self, x: f32, y: f32) -> RasterPoint {
-        point(
-            (self.origin.x + f64::from(x) * self.condense) as f32,
-            (self.origin.y - f64::from(y)) as f32,
-        )
+        let (start, along) = self.line;
+        let right = self.origin.x + f64::from(x) * self.condense;
+        let down = self.origin.y - f64::from(y);
+        let at = start + along * right + Point::new(-along.y, along.x) * down;
+        point(at.x as f32, at.y as f32)
     }
 
     /// Hands every pixel that the outline covers to `blend`.
@@ -220,10 +245,19 @@ mod tests {
 
     /// Total coverage, and the box of covered pixels: left, top, right, bottom.
     fn ink(text: &str, size_px: f64, max_width_px: f64) -> (f32, [i64; 4]) {
+        ink_at(0.0, text, size_px, max_width_px)
+    }
+
+    fn ink_at(angle_rad: f64, text: &str, size_px: f64, max_width_px: f64) -> (f32, [i64; 4]) {
         let line = ShapedLine::with_fonts(text, &Fonts::embedded());
         let (mut sum, mut bounds) = (0.0, [i64::MAX, i64::MAX, i64::MIN, i64::MIN]);
-        let middle = Point::new(50.0, 50.0);
-        line.rasterize(middle, size_px, max_width_px, |x, y, coverage| {
+        let place = LinePlace {
+            left_middle: Point::new(50.0, 50.0),
+            angle_rad,
+            size_px,
+            max_width_px,
+        };
+        line.rasterize(&place, |x, y, coverage| {
             sum += coverage;
             let [left, top, right, bottom] = bounds;
             bounds = [left.min(x), top.min(y), right.max(x), bottom.max(y)];
@@ -242,6 +276,20 @@ mod tests {
     fn capitals_stand_in_the_middle_of_the_line() {
         let (_, [_, top, _, bottom]) = ink("H", 40.0, 1e9);
         assert!((top + bottom + 1 - 100).abs() <= 3, "{top}, {bottom}");
+    }
+
+    #[test]
+    fn turned_line_has_the_same_ink_along_its_direction() {
+        let (level, [left, top, right, bottom]) = ink("Hall", 40.0, 1e9);
+        let (turned, down) = ink_at(std::f64::consts::FRAC_PI_2, "Hall", 40.0, 1e9);
+        assert!((turned / level - 1.0).abs() < 0.01, "{turned}, {level}");
+        // A quarter clockwise about (50, 50): right becomes down, down becomes left.
+        let expected = [100 - bottom, left, 100 - top, right];
+        let pairs = down.into_iter().zip(expected);
+        assert!(
+            pairs.map(|(a, b)| (a - b).abs()).max() <= Some(1),
+            "{down:?}"
+        );
     }
 
     #[test]

@@ -82,22 +82,17 @@ fn position(segment: &[Point<f64>; 4], t: f64, view: &View) -> Option<(Point<f64
     })
 }
 
-/// Anchor of a path's label, on its middle segment: its position in pixels, and whether the path is
-/// rather level than upright there. `None` if the path is too short for a label or the anchor is
-/// outside the view.
+/// Anchor of a path's label, on its middle segment: position and direction in pixels. `None` if the
+/// path is too short for a label or the anchor is outside the view.
 pub(super) fn middle(
     path: PathRef<'_>,
     view: &View,
     px_per_point: f64,
-) -> Option<(Point<f64>, bool)> {
+) -> Option<(Point<f64>, Point<f64>)> {
     let size_px = path.hull_bounds()?.size() * view.px_per_m();
     let count: usize = path.runs().map(|run| run.segments().len()).sum();
     let segment = path.runs().flat_map(|run| run.segments()).nth(count / 2)?;
     let t = if count.is_multiple_of(2) { 0.0 } else { 0.5 };
-    let at = uniform::point(&segment, t);
-    let fits = size_px.norm() >= 2.0 * MIN_LENGTH_POINTS * px_per_point
-        && view.world_bounds().contains(at);
-    let velocity = uniform::derivative(&segment, t);
-    let is_level = velocity.x.abs() > velocity.y.abs();
-    fits.then(|| (view.pixel_from_world(at), is_level))
+    let fits = size_px.norm() >= 2.0 * MIN_LENGTH_POINTS * px_per_point;
+    position(&segment, t, view).filter(|_| fits)
 }

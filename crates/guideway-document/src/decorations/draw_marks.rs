@@ -1,5 +1,7 @@
 //! Draws marks: arrows, node and station symbols as polygons, labels as text.
 
+use std::f64::consts::TAU;
+
 use guideway_scene::{DrawList, Rgba, TextLine};
 use guideway_spline::{Bounds, Point};
 
@@ -15,12 +17,16 @@ const HEAD_WIDTH: f64 = 2.0;
 /// Distance from an arrow's position to the base of its head, in points. It separates the two heads
 /// of a two-way arrow.
 const HEAD_OFFSET_POINTS: f64 = 2.0;
-/// From the center of a node's diamond to its corners, in points.
-const NODE_RADIUS_POINTS: f64 = 4.0;
+/// Least radius of the disc of a node, in points.
+const MIN_NODE_RADIUS_POINTS: f64 = 3.75;
+/// Radius of the disc of a node, per unit of half the width of lines: it shows on wide ones.
+const NODE_RADIUS: f64 = 1.25;
+/// Corners of the disc of a node.
+const NODE_CORNERS: u32 = 16;
 /// From the center of a station's square to its sides, in points.
 const STATION_RADIUS_POINTS: f64 = 6.0;
-/// Opacity of the paper behind labels.
-const LABEL_PAPER_OPACITY: f64 = 0.75;
+/// Width of the rims of nodes and stations, in points.
+const RIM_POINTS: f64 = 1.5;
 
 /// Length of the dashes of a link and of the spaces between them, in points.
 const DASH_POINTS: f64 = 4.0;
@@ -29,7 +35,6 @@ const LINK_RADIUS_POINTS: f64 = 0.6;
 /// Most dashes of a link; a longer one, which leads far out of the view, is a line.
 const MAX_DASHES: f64 = 500.0;
 
-const DIAMOND: [(f64, f64); 4] = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
 const SQUARE: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
 
 impl Marks {
@@ -50,30 +55,41 @@ impl Marks {
         for link in &self.links {
             draw_dashes(&mut list, link.map(&map), color, point_px);
         }
+        let disc = (0..NODE_CORNERS).map(|corner| {
+            let angle = f64::from(corner) * TAU / f64::from(NODE_CORNERS);
+            (angle.cos(), angle.sin())
+        });
+        let disc: Vec<_> = disc.collect();
+        let least_px = MIN_NODE_RADIUS_POINTS * point_px;
+        let node_px = (NODE_RADIUS * self.line_radius_px + RIM_POINTS * point_px).max(least_px);
+        let station_px = STATION_RADIUS_POINTS * point_px;
         let symbols = [
-            (MarkKind::Node, &self.nodes, DIAMOND, NODE_RADIUS_POINTS),
-            (
-                MarkKind::Station,
-                &self.stations,
-                SQUARE,
-                STATION_RADIUS_POINTS,
-            ),
+            (MarkKind::Node, &self.nodes, &disc[..], node_px),
+            (MarkKind::Station, &self.stations, &SQUARE[..], station_px),
         ];
-        for (kind, positions, corners, radius) in symbols {
-            let color = style.mark_color(kind);
-            for &at_px in positions {
-                let center = map(at_px);
-                let corner = |(x, y)| center + Point::new(x, y) * (radius * point_px);
-                list.fill_polygon(color, &corners.map(corner));
+        for (kind, positions, corners, radius_px) in symbols {
+            // The paper within a rim: lines and names stand out against symbols.
+            let layers = [
+                (style.mark_color(kind), radius_px),
+                (style.paper, radius_px - RIM_POINTS * point_px),
+            ];
+            for (color, radius_px) in layers {
+                for &at_px in positions {
+                    let center = map(at_px);
+                    let corner = |&(x, y): &(f64, f64)| center + Point::new(x, y) * radius_px;
+                    let corners: Vec<_> = corners.iter().map(corner).collect();
+                    list.fill_polygon(color, &corners);
+                }
             }
         }
         for label in &self.labels {
             list.texts.push(TextLine {
                 text: label.text.clone(),
                 left_middle_px: map(label.at_px),
+                angle_rad: label.angle_rad,
                 char_width_px: style.label_size().char_px,
                 color: style.ink,
-                background: style.paper.with_opacity(LABEL_PAPER_OPACITY),
+                halo: style.paper,
             });
         }
         list
@@ -162,10 +178,25 @@ mod tests {
         let style = DecorationStyle::new(Rgba::WHITE, 2.0);
         let list = marks.draw(&style, |at| at * 2.0);
         let colors: Vec<_> = list.fills.iter().map(|fill| fill.color).collect();
-        assert_eq!(colors, [style.ink, style.node]);
+        assert_eq!(colors, [style.ink, style.node, style.paper]);
         let tips = list.fills[0].polygons.iter().map(|corners| corners[0].y);
         assert_eq!(tips.collect::<Vec<_>>(), [18.0, 18.0, 62.0]);
-        assert_eq!(list.fills[1].polygons[0][0], Point::new(2.0, -6.0));
+        // A disc of 3.75 points at twice the pixels, about (2, 2).
+        assert_eq!(list.fills[1].polygons[0][0], Point::new(9.5, 2.0));
+    }
+
+    #[test]
+    fn nodes_stand_out_from_wide_lines() {
+        let radius_px = |line_radius_px: f64| {
+            let marks = Marks {
+                nodes: vec![Point::default()],
+                line_radius_px,
+                ..Marks::default()
+            };
+            let list = marks.draw(&DecorationStyle::new(Rgba::WHITE, 1.0), |at| at);
+            list.fills[0].polygons[0][0].x
+        };
+        assert_eq!((radius_px(0.75), radius_px(6.0)), (3.75, 9.0));
     }
 
     #[test]

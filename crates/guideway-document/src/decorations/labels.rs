@@ -10,6 +10,10 @@ use crate::text_format::single_line;
 const MAX_LABELS: usize = 300;
 /// Longest label, in characters.
 const MAX_CHARS: usize = 32;
+/// Part to the right of a unit vector below which a line is upright.
+const UPRIGHT: f64 = 1e-3;
+/// Part downward of a unit vector below which a line is level.
+const LEVEL: f64 = 5e-3;
 
 /// Size of label text.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +31,22 @@ pub struct Label {
     pub text: String,
     /// Middle of the left edge, in pixels.
     pub at_px: Point<f64>,
+    /// Clockwise rotation about that point: the angle of the line below the horizontal.
+    pub angle_rad: f64,
+}
+
+/// The places of a label to try, the preferred one first.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum LabelPlaces {
+    /// Beside its position.
+    Beside(&'static [Side]),
+    /// Along a line, above or below it.
+    Along {
+        /// Unit vector along the line, y down.
+        direction: Point<f64>,
+        /// Half the width of the line, in pixels.
+        line_radius_px: f64,
+    },
 }
 
 /// Place of a label beside its position.
@@ -47,8 +67,7 @@ pub(super) struct Name<'a> {
     pub(super) text: &'a str,
     /// The position, in pixels.
     pub(super) at_px: Point<f64>,
-    /// Sides to try, the preferred one first.
-    pub(super) sides: &'static [Side],
+    pub(super) places: LabelPlaces,
     /// Largest part of its box that lines may cross, from 0 to 1.
     pub(super) max_crossed: f64,
     /// True if the name must not hide an arrow.
@@ -65,20 +84,75 @@ pub(super) struct Obstacles<'a> {
 }
 
 impl LabelSize {
-    /// Box of a label, in pixels.
-    pub fn label_box(self, label: &Label) -> Bounds<f64> {
-        let half_line = Point::new(0.0, self.line_px / 2.0);
-        let width_px = TextLine::columns(&label.text) as f64 * self.char_px;
-        Bounds {
-            min: label.at_px - half_line,
-            max: label.at_px + half_line + Point::new(width_px, 0.0),
+    /// Boxes that a label is in, in pixels: one of a level label, else a chain of squares.
+    pub fn label_boxes(self, label: &Label) -> Vec<Bounds<f64>> {
+        let width_px = self.width_px(&label.text);
+        self.boxes(label.at_px, label.angle_rad, width_px)
+    }
+
+    fn width_px(self, text: &str) -> f64 {
+        TextLine::columns(text) as f64 * self.char_px
+    }
+
+    fn boxes(self, at_px: Point<f64>, angle_rad: f64, width_px: f64) -> Vec<Bounds<f64>> {
+        let half_px = self.line_px / 2.0;
+        let half_line = Point::new(0.0, half_px);
+        if angle_rad == 0.0 {
+            return vec![Bounds {
+                min: at_px - half_line,
+                max: at_px + half_line + Point::new(width_px, 0.0),
+            }];
+        }
+        let along = Point::new(angle_rad.cos(), angle_rad.sin());
+        let half = Point::new(half_px, half_px);
+        let inner_px = (width_px - self.line_px).max(0.0);
+        let steps = (inner_px / self.line_px).ceil().max(1.0);
+        let square = |step: u32| {
+            let center = at_px + along * (half_px + inner_px * f64::from(step) / steps);
+            Bounds {
+                min: center - half,
+                max: center + half,
+            }
+        };
+        (0..=steps as u32).map(square).collect()
+    }
+
+    /// The places of a label to try: middle of the left edge, and rotation.
+    fn places(self, name: &Name<'_>, width_px: f64) -> Vec<(Point<f64>, f64)> {
+        match name.places {
+            LabelPlaces::Beside(sides) => {
+                let of_side = |&side| (self.left_middle_px(side, name.at_px, width_px), 0.0);
+                sides.iter().map(of_side).collect()
+            }
+            LabelPlaces::Along {
+                direction,
+                line_radius_px,
+            } => {
+                // Texts read to the right, and upright ones upward.
+                let is_backward =
+                    direction.x < -UPRIGHT || direction.x <= UPRIGHT && direction.y > 0.0;
+                let along = if is_backward {
+                    direction * -1.0
+                } else {
+                    direction
+                };
+                let angle_rad = match along.y.abs() < LEVEL {
+                    true => 0.0,
+                    false => along.y.atan2(along.x),
+                };
+                let above = Point::new(along.y, -along.x) * (self.line_px + line_radius_px);
+                let left = name.at_px - along * (width_px / 2.0);
+                [above, above * -1.0]
+                    .map(|aside| (left + aside, angle_rad))
+                    .into()
+            }
         }
     }
 
     /// Middle of the left edge of a label on a side of a position.
     fn left_middle_px(self, side: Side, at_px: Point<f64>, width_px: f64) -> Point<f64> {
         // Clear of a symbol or line at the position.
-        let gap_px = self.line_px / 2.0;
+        let gap_px = 0.7 * self.line_px;
         let left_px = -gap_px - width_px;
         let near_px = 0.8 * self.line_px;
         let (x, y) = match side {
@@ -124,41 +198,44 @@ pub(super) fn place<'a>(
             continue;
         }
         let text = single_line(name.text, MAX_CHARS);
-        let width_px = TextLine::columns(&text) as f64 * size.char_px;
-        let is_clear = |bounds: Bounds<f64>, others: &[Bounds<f64>]| {
-            !others.iter().any(|other| other.intersects(bounds))
+        let width_px = size.width_px(&text);
+        let is_clear = |boxes: &[Bounds<f64>], others: &[Bounds<f64>]| {
+            let hits = |other: &Bounds<f64>| boxes.iter().any(|of| of.intersects(*other));
+            !others.iter().any(hits)
         };
-        let mut best: Option<(f64, Label, Bounds<f64>)> = None;
-        for &side in name.sides {
-            let label = Label {
-                text: text.clone(),
-                at_px: size.left_middle_px(side, name.at_px, width_px),
-            };
-            let bounds = size.label_box(&label);
-            let crossed = obstacles.lines.coverage(bounds);
+        let mut best: Option<(f64, Label, Vec<Bounds<f64>>)> = None;
+        for (at_px, angle_rad) in size.places(&name, width_px) {
+            let boxes = size.boxes(at_px, angle_rad, width_px);
+            let covered = boxes.iter().map(|of| obstacles.lines.coverage(*of));
+            let crossed = covered.sum::<f64>() / boxes.len() as f64;
             let least = best
                 .as_ref()
                 .map_or(f64::INFINITY, |(crossed, ..)| *crossed);
-            let is_inside = picture.contains(bounds.min) && picture.contains(bounds.max);
-            let is_free = is_inside
+            let is_inside = |of: &Bounds<f64>| picture.contains(of.min) && picture.contains(of.max);
+            let is_free = boxes.iter().all(is_inside)
                 && crossed < least
                 && crossed <= name.max_crossed
-                && is_clear(bounds, &taken)
-                && (!name.spares_arrows || is_clear(bounds, obstacles.arrows));
+                && is_clear(&boxes, &taken)
+                && (!name.spares_arrows || is_clear(&boxes, obstacles.arrows));
             if is_free {
-                best = Some((crossed, label, bounds));
+                let label = Label {
+                    text: text.clone(),
+                    at_px,
+                    angle_rad,
+                };
+                best = Some((crossed, label, boxes));
             }
             if crossed == 0.0 && is_free {
                 break;
             }
         }
-        if let Some((_, label, bounds)) = best {
+        if let Some((_, label, boxes)) = best {
             // Keeps a space between neighbors, which would read as one name.
             let space = Point::new(size.char_px, 0.0);
-            taken.push(Bounds {
-                min: bounds.min - space,
-                max: bounds.max + space,
-            });
+            taken.extend(boxes.iter().map(|of| Bounds {
+                min: of.min - space,
+                max: of.max + space,
+            }));
             labels.push(label);
         }
     }
@@ -205,7 +282,7 @@ mod tests {
         Name {
             text,
             at_px,
-            sides,
+            places: LabelPlaces::Beside(sides),
             max_crossed: 0.0,
             spares_arrows: true,
         }
@@ -255,5 +332,47 @@ mod tests {
         assert_eq!(y_of(1.0, &[Side::Right]), Some(50.0));
         let sides = &[Side::Right, Side::AboveRight];
         assert!(y_of(1.0, sides).unwrap() < 45.0);
+    }
+
+    #[test]
+    fn names_along_a_line_turn_with_it_and_read_to_the_right() {
+        let along = |direction: Point<f64>| {
+            let names = vec![Name {
+                places: LabelPlaces::Along {
+                    direction,
+                    line_radius_px: 2.0,
+                },
+                ..name("one", Point::new(50.0, 60.0), &[])
+            }];
+            let label = placed(names, &[], 5.0).remove(0);
+            (label.angle_rad.to_degrees().round(), label.at_px)
+        };
+        let level = Point::new(50.0 - 1.5 * SIZE.char_px, 60.0 - SIZE.line_px - 2.0);
+        for direction in [Point::new(1.0, 0.0), Point::new(-1.0, 0.0)] {
+            assert_eq!(along(direction), (0.0, level));
+        }
+        for (direction, degrees) in [((0.0, 1.0), -90.0), ((0.0, -1.0), -90.0)] {
+            assert_eq!(along(Point::new(direction.0, direction.1)).0, degrees);
+        }
+        let sloped = Point::new(-0.8, -0.6);
+        assert_eq!(along(sloped).0, 37.0);
+    }
+
+    #[test]
+    fn boxes_of_a_turned_label_cover_it_and_little_more() {
+        let label = Label {
+            text: "a long name".into(),
+            at_px: Point::new(20.0, 80.0),
+            angle_rad: -std::f64::consts::FRAC_PI_4,
+        };
+        let boxes = SIZE.label_boxes(&label);
+        let along = Point::new(label.angle_rad.cos(), label.angle_rad.sin());
+        let width_px = 11.0 * SIZE.char_px;
+        for step in 1..100 {
+            let at = label.at_px + along * (width_px * f64::from(step) / 100.0);
+            assert!(boxes.iter().any(|of| of.contains(at)), "{step}");
+        }
+        let all = boxes.into_iter().reduce(Bounds::union).unwrap();
+        assert!(all.size().x < width_px * along.x + SIZE.line_px);
     }
 }

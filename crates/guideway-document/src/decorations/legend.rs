@@ -176,9 +176,10 @@ fn text(text: String, style: &DecorationStyle) -> TextLine {
     TextLine {
         text,
         left_middle_px: Point::default(),
+        angle_rad: 0.0,
         char_width_px: style.line_px() * TextLine::CHAR_ASPECT,
         color: style.ink,
-        background: style.paper.with_opacity(0.0),
+        halo: style.paper.with_opacity(0.0),
     }
 }
 

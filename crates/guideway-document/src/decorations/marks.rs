@@ -34,8 +34,10 @@ impl Default for MarkedKinds {
 pub struct MarkOptions {
     /// Pixels per point, which sets the size of marks.
     pub px_per_point: f64,
-    /// Draws direction arrows on lines of this width rule.
-    pub arrows: Option<LineRule>,
+    /// The widths of the lines, which arrows and nodes stand out from.
+    pub line_rule: LineRule,
+    /// Draws direction arrows.
+    pub arrows: bool,
     /// Draws nodes and stations.
     pub symbols: bool,
     /// Draws identifiers of paths, nodes and stations in this size.
@@ -64,6 +66,8 @@ pub struct Marks {
     pub arrows: Vec<Arrow>,
     /// Positions of nodes, in pixels.
     pub nodes: Vec<Point<f64>>,
+    /// Half the width of lines without a width of their own, in pixels.
+    pub line_radius_px: f64,
     /// Positions of stations, in pixels.
     pub stations: Vec<Point<f64>>,
     /// From stations to the nodes that serve them, in pixels, where these are apart.

@@ -7,7 +7,7 @@ use guideway_spline::{Bounds, Point};
 use super::arrows;
 use super::declutter::{Declutter, is_crowded};
 use super::draw_marks::arrow_box;
-use super::labels::{self, Label, LabelSize, Name, Obstacles, Side};
+use super::labels::{self, Label, LabelPlaces, LabelSize, Name, Obstacles, Side};
 use super::line_mask::LineMask;
 use super::marks::{Arrow, MAX_MARKED, MarkOptions, MarkedKinds, Marks};
 use crate::document::Document;
@@ -15,6 +15,8 @@ use crate::reverse_pairs::ReversePairs;
 
 /// Diameter of a symbol, in points; marks nearer to each other overlap.
 const SYMBOL_POINTS: f64 = 8.0;
+/// Size of the symbol of a station, per unit of that of a node.
+const STATION_SIZE: f64 = 1.5;
 /// Largest part of a node's name that lines may cross: a corner of it.
 const MAX_CROSSED_NODE: f64 = 0.12;
 /// Largest part of a path's name that lines may cross.
@@ -31,10 +33,6 @@ const AROUND: &[Side] = &[
     Side::Above,
     Side::Below,
 ];
-/// Places of the name of a rather upright path.
-const BESIDE_UPRIGHT: &[Side] = &[Side::Right, Side::Left, Side::Above, Side::Below];
-/// Places of the name of a rather level path.
-const BESIDE_LEVEL: &[Side] = &[Side::Above, Side::Below, Side::Right];
 
 /// Places the marks of all shown paths, nodes and stations in a view.
 pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
@@ -43,9 +41,11 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
     visible.keep(options.of);
     let mut marks = Marks {
         left_out: visible.left_out,
+        line_radius_px: options.line_rule.radius_px(None, view.px_per_m()),
         ..Marks::default()
     };
-    if let Some(rule) = options.arrows {
+    if options.arrows {
+        let rule = options.line_rule;
         marks.arrows = visible.arrows(rule, options.px_per_point, min_distance_px);
     }
     if options.symbols {
@@ -56,9 +56,13 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
     if let Some(size) = options.labels {
         let arrow_box = |arrow: &Arrow| arrow_box(arrow, options.px_per_point);
         let boxes: Vec<_> = marks.arrows.iter().filter_map(arrow_box).collect();
-        marks.labels = visible.labels(&marks.stations, &boxes, size, options.px_per_point);
+        marks.labels = visible.labels(&marks.stations, &boxes, size, options);
         // An arrow that a label hides in part would look like another symbol.
-        let labels: Vec<_> = marks.labels.iter().map(|l| size.label_box(l)).collect();
+        let labels = marks
+            .labels
+            .iter()
+            .flat_map(|label| size.label_boxes(label));
+        let labels: Vec<_> = labels.collect();
         let is_hidden = |bounds| labels.iter().any(|label| label.intersects(bounds));
         let is_visible = |arrow: &Arrow| !arrow_box(arrow).is_some_and(is_hidden);
         marks.arrows.retain(is_visible);
@@ -89,7 +93,7 @@ struct Visible<'d> {
     paths: Vec<u32>,
     /// Rows and pixel positions; empty if too many or crowded.
     nodes: Vec<(u32, Point<f64>)>,
-    /// Rows and pixel positions; empty if too many.
+    /// Rows and pixel positions; empty if too many or crowded.
     stations: Vec<(u32, Point<f64>)>,
     /// True if a list is empty because it has too many elements.
     left_out: bool,
@@ -134,12 +138,18 @@ impl<'d> Visible<'d> {
             nodes.clear();
         }
         let station_px = |station| Some((station, pixel(station_m(station)?)));
+        let mut stations: Vec<_> = stations.into_iter().filter_map(station_px).collect();
+        let positions_px: Vec<_> = stations.iter().map(|(_, at_px)| *at_px).collect();
+        if is_crowded(&positions_px, STATION_SIZE * min_distance_px) {
+            left_out = true;
+            stations.clear();
+        }
         Self {
             document,
             view,
             paths,
             nodes,
-            stations: stations.into_iter().filter_map(station_px).collect(),
+            stations,
             left_out,
         }
     }
@@ -202,9 +212,10 @@ impl<'d> Visible<'d> {
         symbols: &[Point<f64>],
         arrows: &[Bounds<f64>],
         size: LabelSize,
-        px_per_point: f64,
+        options: &MarkOptions,
     ) -> Vec<Label> {
-        let layout = self.document.layout();
+        let px_per_point = options.px_per_point;
+        let (scene, layout) = (self.document.scene(), self.document.layout());
         let path = |row: u32| layout.paths.get(row as usize);
         let lines = self.paths.iter().map(|&row| path(row));
         let obstacles = Obstacles {
@@ -215,7 +226,7 @@ impl<'d> Visible<'d> {
         let stations = self.stations.iter().map(|&(row, at_px)| Name {
             text: layout.stations.id(row),
             at_px,
-            sides: AROUND,
+            places: LabelPlaces::Beside(AROUND),
             max_crossed: 1.0,
             spares_arrows: false,
         });
@@ -227,20 +238,21 @@ impl<'d> Visible<'d> {
         let nodes = nodes.map(|&(row, at_px)| Name {
             text: layout.nodes.id(row),
             at_px,
-            sides: AROUND,
+            places: LabelPlaces::Beside(AROUND),
             max_crossed: MAX_CROSSED_NODE,
             spares_arrows: false,
         });
         let driven = self.paths.iter().filter(|row| !is_structure(layout, **row));
         let paths = driven.filter_map(|&row| {
-            let (at_px, is_level) = arrows::middle(path(row), self.view, px_per_point)?;
+            let (at_px, direction) = arrows::middle(path(row), self.view, px_per_point)?;
+            let width_m = scene.width_m(row);
+            let line_radius_px = options.line_rule.radius_px(width_m, self.view.px_per_m());
             Some(Name {
                 text: path(row).id(),
                 at_px,
-                sides: if is_level {
-                    BESIDE_LEVEL
-                } else {
-                    BESIDE_UPRIGHT
+                places: LabelPlaces::Along {
+                    direction,
+                    line_radius_px,
                 },
                 max_crossed: MAX_CROSSED_PATH,
                 spares_arrows: true,

@@ -36,9 +36,10 @@ pub fn scale_bar(view: &View, style: &DecorationStyle, corner: Corner) -> DrawLi
     list.texts.push(TextLine {
         text: text_format::length(length_m(view, style)),
         left_middle_px: left + LABEL_POINTS * point_px,
+        angle_rad: 0.0,
         char_width_px: style.label_size().char_px,
         color: style.ink,
-        background: style.paper.with_opacity(0.0),
+        halo: style.paper,
     });
     list
 }

@@ -14,11 +14,12 @@ use crate::site::{document_of, lanes, p, square, view};
 
 const ALL: MarkOptions = MarkOptions {
     px_per_point: 1.0,
-    arrows: Some(LineRule::World {
+    line_rule: LineRule::World {
         width_m: 0.1,
         min_px: 1.5,
         max_px: 12.0,
-    }),
+    },
+    arrows: true,
     symbols: true,
     labels: Some(LabelSize {
         char_px: 7.0,
@@ -141,7 +142,7 @@ fn reverse_pairs_share_two_way_arrows() {
 #[test]
 fn labels_do_not_overlap() {
     let without_arrows = MarkOptions {
-        arrows: None,
+        arrows: false,
         ..ALL
     };
     let view = view(p(5.0, 50.0), 24.0);
@@ -163,7 +164,7 @@ fn labels_of_level_paths_are_above_them_and_hide_no_arrow() {
     let at = |text: &str| marks.labels.iter().find(|label| label.text == text);
     let label = at("path-1").unwrap_or_else(|| panic!("{:?}", marks.labels));
     let path_px = view.pixel_from_world(p(5.0, 1.0));
-    assert_eq!(label.at_px.y, path_px.y - 14.0);
+    assert_eq!(label.at_px.y, path_px.y - 14.0 - marks.line_radius_px);
     // The arrow in the middle of the path stays.
     assert!(marks.arrows.iter().any(|arrow| arrow.at_px == path_px));
 }

@@ -53,6 +53,6 @@ mod write;
 
 #[cfg(feature = "svg")]
 pub(crate) use self::read::read;
-pub use self::svg_writer::{PathData, Stroke, SvgWriter};
+pub use self::svg_writer::{PathData, Stroke, SvgText, SvgWriter};
 pub use self::write::write_layout;
 pub(crate) use self::write::write_watched;

@@ -73,6 +73,26 @@ impl PathData {
     }
 }
 
+/// A line of monospace text. Its glyphs are stretched to its width, in any font that the viewer
+/// has.
+#[derive(Clone, Copy, Debug)]
+pub struct SvgText<'a> {
+    /// Left end of the baseline.
+    pub at: [f64; 2],
+    /// Font size.
+    pub height: f64,
+    /// Width of the whole line.
+    pub width: f64,
+    /// Clockwise rotation in degrees, and the point that it is about.
+    pub turned: (f64, [f64; 2]),
+    /// Color 0xRRGGBBAA.
+    pub rgba: u32,
+    /// Stroke below the letters.
+    pub halo: Option<Stroke>,
+    /// The characters.
+    pub text: &'a str,
+}
+
 /// Color and width of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
@@ -254,26 +274,29 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         self.end_group()
     }
 
-    /// Writes a monospace text in a color 0xRRGGBBAA. Its glyphs are stretched to `width`, in any
-    /// font that the viewer has.
+    /// Writes a line of text.
     ///
     /// # Errors
     /// When writing fails.
-    pub fn text(
-        &mut self,
-        [x, y]: [f64; 2],
-        height: f64,
-        width: f64,
-        rgba: u32,
-        text: &str,
-    ) -> io::Result<()> {
+    pub fn text_line(&mut self, line: &SvgText<'_>) -> io::Result<()> {
+        let ([x, y], height, width) = (line.at, line.height, line.width);
         let layout = format!(r#"x="{x}" y="{y}" font-size="{height}" textLength="{width}""#);
         let adjust = r#"lengthAdjust="spacingAndGlyphs""#;
-        let style = r#"font-family="monospace" stroke="none""#;
-        let (fill, text) = (paint("fill", rgba), escape(text));
+        let turned = match line.turned {
+            (0.0, _) => String::new(),
+            (angle, [x, y]) => format!(r#" transform="rotate({angle:.3} {x} {y})""#),
+        };
+        let stroke = match line.halo {
+            None => r#" stroke="none""#.to_owned(),
+            Some(halo) => {
+                let below = r#" paint-order="stroke" stroke-linejoin="round""#;
+                format!("{below}{}", halo.attributes(None))
+            }
+        };
+        let (fill, text) = (paint("fill", line.rgba), escape(line.text));
         writeln!(
             self.out,
-            "<text {layout} {adjust} {style}{fill}>{text}</text>"
+            r#"<text {layout} {adjust} font-family="monospace"{turned}{stroke}{fill}>{text}</text>"#
         )
     }
 

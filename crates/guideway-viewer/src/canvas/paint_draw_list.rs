@@ -1,10 +1,18 @@
 //! Paints a draw list with egui.
 
+use std::sync::Arc;
+
+use eframe::egui::emath::Rot2;
+use eframe::egui::epaint::TextShape;
 use eframe::egui::{Color32, FontId, Mesh, Painter, Pos2, Rect, Vec2, pos2};
 use guideway_scene::{DrawList, Rgba, TextLine};
 use guideway_spline::Point;
 
 use super::screen::Screen;
+
+/// Distance of the copies of a text that are its halo along each axis, per unit of its width.
+/// Derived: four copies toward the corners reach as far as the halo.
+const HALO_PART: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
 /// Paints all fills as one mesh, then the texts.
 pub(super) fn paint_draw_list(painter: &Painter, screen: Screen, list: &DrawList) {
@@ -34,11 +42,23 @@ fn add_polygon(mesh: &mut Mesh, color: Color32, screen: Screen, corners: &[Point
 }
 
 fn paint_text(painter: &Painter, screen: Screen, text: &TextLine) {
-    let height_px = text.char_width_px / TextLine::CHAR_ASPECT;
-    let font = FontId::monospace(height_px as f32 / screen.px_per_point);
-    let left_middle = screen.point(text.left_middle_px);
-    let (color, background) = (color32(text.color), color32(text.background));
-    paint_text_box(painter, left_middle, &text.text, font, color, background);
+    let font = FontId::monospace(text.height_px() as f32 / screen.px_per_point);
+    let color = color32(text.color);
+    let galley = painter.layout_no_wrap(text.text.clone(), font, color);
+    let angle = text.angle_rad as f32;
+    let corner = Vec2::new(0.0, -galley.size().y / 2.0);
+    let corner = screen.point(text.left_middle_px) + Rot2::from_angle(angle) * corner;
+    let copy = |by: Vec2, color: Color32| {
+        let shape = TextShape::new(corner + by, Arc::clone(&galley), color);
+        shape.with_angle(angle).with_override_text_color(color)
+    };
+    if text.halo.a > 0 {
+        let reach = HALO_PART * text.halo_px() as f32 / screen.px_per_point;
+        let halo = color32(text.halo);
+        let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+        painter.extend(corners.map(|(x, y)| copy(Vec2::new(x, y) * reach, halo).into()));
+    }
+    painter.add(copy(Vec2::ZERO, color));
 }
 
 /// Paints a text over a filled box; `left_middle` is the middle of its left edge.

@@ -13,8 +13,8 @@ pub(super) const MIN_OUTLINE_WIDTH: f32 = 2.5;
 /// Width of the glow of an outline on both sides together, in points.
 const GLOW_WIDTH: f32 = 8.0;
 const GLOW_OPACITY: f32 = 0.25;
-/// Radius of the ring around a selected node or station, in points.
-const RING_RADIUS: f32 = 9.0;
+/// Radius of the ring around a selected node or station, in points: outside of the largest symbol.
+const RING_RADIUS: f32 = 11.0;
 /// Side of the square of a handle, in points.
 const HANDLE_SIZE: f32 = 7.0;
 

@@ -42,7 +42,7 @@ impl LayerLook {
         let has_arrows =
             self.has_arrows && !document.is_some_and(|document| document.layout().is_drawing());
         MarkOptions {
-            arrows: all.arrows.filter(|_| has_arrows),
+            arrows: all.arrows && has_arrows,
             labels: all.labels.filter(|_| self.has_names),
             of: MarkedKinds {
                 paths: self.has_paths,
@@ -79,7 +79,7 @@ mod tests {
             let document = Document::new(layout.into(), &Default::default()).unwrap();
             let all = DisplaySettings::default().mark_options(1.0);
             let look = LayerLook::default();
-            look.mark_options(all, Some(&document)).arrows.is_some()
+            look.mark_options(all, Some(&document)).arrows
         };
         assert!(has_arrows("LIF", true) && has_arrows("LIF", false));
         assert!(has_arrows("DXF", true) && !has_arrows("DXF", false));

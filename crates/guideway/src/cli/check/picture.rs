@@ -188,9 +188,10 @@ fn rings(spots: &[Spot], view: &View) -> DrawList {
         let mut text = TextLine {
             text: kinds.collect::<Vec<_>>().join(", "),
             left_middle_px: spot.at_px + Point::new(radius_px + 4.0, 0.0),
+            angle_rad: 0.0,
             char_width_px: TEXT_POINTS * TextLine::CHAR_ASPECT,
             color: ink,
-            background: Rgba::WHITE.with_opacity(0.85),
+            halo: Rgba::WHITE.with_opacity(0.85),
         };
         let width_px = text.width_px();
         if text.left_middle_px.x + width_px > f64::from(view.size().width()) {
