@@ -56,8 +56,9 @@ impl Document {
         self.selection = Arc::new(selection);
     }
 
-    /// Selects the paths whose curve is inside a box in meters, or also paths that cross its border
-    /// if `crossing` is set.
+    /// Selects what is inside a box in meters, and paths that cross its border if `crossing` is
+    /// set. Nodes at which other paths end are left out, unless the box has no path at all:
+    /// deleting a part of a network must not take the rest along.
     pub fn select_in(&mut self, bounds: Bounds<f64>, crossing: bool, mode: SelectMode) {
         let is_chosen = |&(path, of_path): &(u32, Bounds<f64>)| {
             let is_inside = bounds.contains(of_path.min) && bounds.contains(of_path.max);
@@ -65,15 +66,32 @@ impl Document {
             is_inside || (crossing && intersects(path, bounds))
         };
         let found = self.index.boxes_in(bounds).filter(is_chosen);
-        let found = found.map(|(path, _)| path).collect();
-        self.select(found, mode);
+        let paths: PathSet = found.map(|(path, _)| path).collect();
+        let ends_only = |node: &u32| paths.is_empty() || self.has_only(*node, &paths);
+        let nodes = self.index.nodes_in(bounds).filter(ends_only).collect();
+        let is_inside = |row: &u32| {
+            let at_m = self.station_position_m(*row);
+            at_m.is_some_and(|at_m| bounds.contains(at_m))
+        };
+        let stations = self.existing(Table::Stations).filter(is_inside).collect();
+        let found = Elements {
+            paths,
+            nodes,
+            stations,
+        };
+        self.select_elements(&found, mode);
     }
 
-    /// Selects all shown paths.
+    /// Selects all that is shown, but for nodes at which hidden paths end.
     pub fn select_all(&mut self) {
-        self.revision += 1;
-        let shown = self.scene.draw_order().iter().copied();
-        self.selection = Arc::new(Elements::of_paths(shown));
+        let paths: PathSet = self.scene.draw_order().iter().copied().collect();
+        let ends_only = |node: &u32| self.has_only(*node, &paths);
+        let all = Elements {
+            nodes: self.existing(Table::Nodes).filter(ends_only).collect(),
+            stations: self.existing(Table::Stations).collect(),
+            paths,
+        };
+        self.select_elements(&all, SelectMode::Replace);
     }
 
     /// Bounding box of what is selected, in meters; `None` without a selection.

@@ -56,10 +56,14 @@ impl Document {
 
     /// Nodes all of whose paths are among `paths`.
     pub(super) fn nodes_of_only(&self, paths: &PathSet) -> PathSet {
-        let are_all = |&node: &u32| {
-            self.existing_paths_at(node)
-                .all(|path| paths.contains(path))
-        };
-        self.end_nodes(paths).iter().filter(are_all).collect()
+        let ends = self.end_nodes(paths);
+        let ends = ends.iter().filter(|node| self.has_only(*node, paths));
+        ends.collect()
+    }
+
+    /// Returns `true` if all paths that start or end at a node are among `paths`.
+    pub(crate) fn has_only(&self, node: u32, paths: &PathSet) -> bool {
+        let mut own = self.existing_paths_at(node);
+        own.all(|path| paths.contains(path))
     }
 }

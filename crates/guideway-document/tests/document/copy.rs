@@ -239,3 +239,33 @@ fn undo_of_many_copies_gives_their_memory_back() {
     while document.redo().is_some() {}
     assert_eq!(differences(&end, &document.to_layout(), &exact), []);
 }
+
+/// The memory of the process around the copy of a million paths, as its user sees it.
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "takes a gigabyte and a minute"]
+fn undo_of_a_million_copies_gives_resident_memory_back() {
+    const PAGE_MB: f64 = 4096.0 / 1e6;
+    let resident_mb = || {
+        let pages = std::fs::read_to_string("/proc/self/statm").unwrap();
+        PAGE_MB * pages.split(' ').nth(1).unwrap().parse::<f64>().unwrap()
+    };
+    let mut document = document(1_000_000);
+    let before_mb = resident_mb();
+    let step = p(0.0, 300.0);
+    let all = Elements::of_paths(0..1_000_000);
+    document.copy(&all, 1, step).unwrap();
+    let copied_mb = resident_mb();
+    document.undo().unwrap();
+    let after_mb = resident_mb();
+    let entries = document.take_journal_entries();
+    let journal: usize = entries.iter().map(|entry| entry.to_record().len()).sum();
+    println!(
+        "{before_mb:.0} MB, {copied_mb:.0} MB after the copy, {after_mb:.0} MB after undo; journal \
+         of {journal} bytes"
+    );
+    // The layout and its copies, then the layout and what the allocator keeps.
+    assert!(copied_mb > 2.0 * before_mb && after_mb < 1.6 * before_mb);
+    // The rows of the originals, not 128 bytes of points for each copy.
+    assert!(journal < 5_000_000);
+}

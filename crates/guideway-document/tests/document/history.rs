@@ -72,9 +72,9 @@ fn undo_memory_grows_with_the_changes_not_the_layout() {
         document.history_bytes()
     };
     let small = bytes_after(100, 1, 1_000);
-    // Every step has the same selection of all paths, stored once.
+    // Every step has the same selection of all paths and nodes, stored once.
     let large = bytes_after(20_000, 1, 1_000);
-    assert!(large < small + 10_000, "{small} and {large} bytes");
+    assert!(large < small + 20_000, "{small} and {large} bytes");
     let twice = bytes_after(100, 1, 2_000);
     assert!((1.9..2.1).contains(&(twice as f64 / small as f64)));
     let mut document = document(5_000);

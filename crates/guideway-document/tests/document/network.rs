@@ -1,6 +1,8 @@
 //! Nodes, paths and stations that are created and deleted.
 
-use guideway_document::{Document, Element, Elements, NewEdge, OperationError, PathSet};
+use guideway_document::{
+    Document, Element, Elements, NewEdge, OperationError, PathSet, SelectMode,
+};
 use guideway_layout::{CheckOptions, Code, Member, NewPath};
 use guideway_scene::Table;
 use guideway_spline::Runs;
@@ -103,7 +105,7 @@ fn a_deleted_node_needs_its_paths_to_go_too() {
 #[test]
 fn nodes_go_with_their_last_path_unless_a_station_needs_them() {
     let mut document = document_of(square());
-    document.select_all();
+    document.select((0..4).collect(), SelectMode::Replace);
     document.delete_selection().unwrap();
     assert_eq!(
         counts(&document),

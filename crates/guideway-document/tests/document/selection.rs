@@ -123,3 +123,25 @@ fn a_curve_around_a_box_does_not_cross_it() {
     document.select_in(inner.inflated(3.0), true, SelectMode::Replace);
     assert_eq!(rows(&document), [0]);
 }
+
+#[test]
+fn a_box_takes_nodes_only_with_all_their_paths_or_alone() {
+    let mut document = crate::site::two_joined();
+    let select = |document: &mut Document, from: f64, to: f64| {
+        let bounds = Bounds {
+            min: p(from, -1.0),
+            max: p(to, 9.0),
+        };
+        document.select_in(bounds, false, SelectMode::Replace);
+        let selected = document.selected();
+        let rows = [&selected.paths, &selected.nodes];
+        rows.map(|rows| rows.iter().collect::<Vec<u32>>())
+    };
+    // The second path ends at node 1 too, which deleting the first one must not take along.
+    assert_eq!(select(&mut document, -1.0, 11.0), [vec![0], vec![0]]);
+    assert_eq!(
+        select(&mut document, -1.0, 21.0),
+        [vec![0, 1], vec![0, 1, 2]]
+    );
+    assert_eq!(select(&mut document, 9.0, 11.0), [vec![], vec![1]]);
+}

@@ -23,6 +23,16 @@ pub(super) fn show(
         None => t("No layout is open").to_owned(),
     };
     ui.add(Label::new(text).truncate());
+    // While an edit has the document, further edits wait for it.
+    let is_idle = match files.document() {
+        Some(document) => document.selected().is_empty(),
+        None => files.active().is_none(),
+    };
+    ui.add_enabled_ui(!is_idle, |ui| show_exact_edits(ui, exact, actions));
+}
+
+/// Moves, copies and rotations of the selection by numbers.
+fn show_exact_edits(ui: &mut Ui, exact: &mut ExactEdit, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         ui.label(t("Offset"));
         ui.add(DragValue::new(&mut exact.by_x_m).speed(0.1).suffix(" m"));

@@ -139,7 +139,9 @@ fn hovered(document: &Document, hit: &Hit) -> String {
 
 fn tool_hint(tool: Tool) -> &'static str {
     match tool {
-        Tool::Select => t("Click or drag a box to select; drag the selection to move it"),
+        Tool::Select => t(
+            "Click or drag a box to select; drag the selection to move it, with Ctrl off its nodes",
+        ),
         Tool::Points => t("Drag nodes and control points; Insert adds one, Backspace removes it"),
         Tool::Line => t("Click or type points; Enter, a double or a right click finishes"),
         Tool::Arc => t("Click start, end and a point between, or type a radius: r2"),

@@ -109,30 +109,28 @@ pub(super) fn selected_paths(document: &Document) -> Result<PathSet, UserError> 
     }
 }
 
-/// The selected nodes, else those at which selected paths end.
+/// The selected nodes, and those at which selected paths end.
 pub(super) fn selected_nodes(document: &Document) -> Vec<u32> {
-    let selected = document.selected();
-    if !selected.nodes.is_empty() {
-        return selected.nodes.iter().collect();
-    }
-    counted_ends(document).into_keys().collect()
+    let ends = counted_ends(document).into_keys();
+    let nodes = ends.chain(document.selected().nodes.iter());
+    nodes.collect::<PathSet>().iter().collect()
 }
 
-/// The selected nodes, else those at which several selected paths meet.
+/// The nodes at which several selected paths meet, of these only the selected ones if any is; else
+/// the selected nodes.
 ///
 /// # Errors
 /// When there are none.
 pub(super) fn corners(document: &Document) -> Result<Vec<u32>, UserError> {
-    let selected: Vec<u32> = document.selected().nodes.iter().collect();
-    let meet = || {
-        counted_ends(document)
-            .into_iter()
-            .filter(|(_, count)| *count > 1)
-    };
-    let nodes = match selected.is_empty() {
-        true => meet().map(|(node, _)| node).collect(),
-        false => selected,
-    };
+    let selected = &document.selected().nodes;
+    let ends = counted_ends(document).into_iter();
+    let meet: PathSet = (ends.filter(|(_, count)| *count > 1))
+        .map(|(node, _)| node)
+        .collect();
+    let both = selected & &meet;
+    let choices = [both, selected.clone(), meet];
+    let chosen = choices.into_iter().find(|nodes| !nodes.is_empty());
+    let nodes: Vec<u32> = chosen.unwrap_or_default().iter().collect();
     if nodes.is_empty() {
         let message = t("no node is selected, and no two selected paths meet");
         return Err(UserError::new(

@@ -3,6 +3,7 @@
 use eframe::egui::{Event, Key, Modifiers, Vec2};
 use guideway_spline::Point;
 
+use super::lane_network::network;
 use super::services::lanes;
 use super::test_window::TestWindow;
 use crate::app::App;
@@ -27,6 +28,31 @@ fn dragged_selection_moves_and_undo_restores_it() {
     assert!(!window.document().is_changed());
     window.key(CTRL | Modifiers::SHIFT, Key::Z);
     assert!(window.document().is_changed());
+}
+
+#[test]
+fn ctrl_at_the_end_of_a_drag_leaves_neighbors_alone() {
+    let ends = |window: &mut TestWindow, row| {
+        let ends = window.document().layout().paths.get(row).ends().unwrap();
+        [ends.0, ends.1]
+    };
+    for (modifiers, follows) in [(NONE, true), (CTRL, false)] {
+        let mut window = TestWindow::showing(network(2 * 3));
+        window.key(NONE, Key::F);
+        // Lane 1 ends at links to the lanes beside it.
+        let from = window.at(5.0, 2.0);
+        window.click(from);
+        let links = [6, 7].map(|row| ends(&mut window, row));
+        let to = window.at(8.0, 2.0);
+        window.press(from, NONE);
+        window.harness.event(Event::PointerMoved(to));
+        window.harness.step();
+        window.release(to, modifiers);
+        let moved = ends(&mut window, 1)[0];
+        assert!(moved.distance(Point::new(3.0, 2.0)) < 0.1, "{moved:?}");
+        let after = [6, 7].map(|row| ends(&mut window, row));
+        assert_eq!(after != links, follows, "{after:?}");
+    }
 }
 
 #[test]

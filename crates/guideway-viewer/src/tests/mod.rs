@@ -12,6 +12,7 @@ mod findings;
 mod first_layout;
 mod floor_plans;
 mod groups;
+mod lane_network;
 mod layers;
 mod levels;
 mod methods;

@@ -9,6 +9,7 @@ use guideway_cpu::Cpu;
 use guideway_scene::{Budget, Cancel, Frame, Method};
 use guideway_spline::Point;
 
+use super::lane_network::network;
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::panels::SideTab;
@@ -111,6 +112,21 @@ fn clicks_and_boxes_select_paths() {
     assert_eq!(window.selected().len(), 5);
     window.key(NONE, Key::Escape);
     assert!(window.selected().is_empty());
+}
+
+#[test]
+fn all_is_selected_and_deleted_with_nodes_and_stations() {
+    let mut window = TestWindow::showing(network(6));
+    window.key(CTRL, Key::A);
+    let selected = window.document().selected();
+    let counts = [&selected.paths, &selected.nodes, &selected.stations].map(|rows| rows.len());
+    assert_eq!(counts, [10, 12, 2]);
+    window.key(NONE, Key::Delete);
+    let left = window.document().to_layout();
+    let left = [left.paths.len(), left.nodes.len(), left.stations.len()];
+    assert_eq!(left, [0, 0, 0]);
+    window.key(CTRL, Key::Z);
+    assert_eq!(window.document().to_layout().stations.len(), 2);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Drags: selection boxes, moves of the selection, of nodes and of control points.
 
 use eframe::egui::Modifiers;
-use guideway_document::Document;
+use guideway_document::{Document, Neighbors};
 use guideway_spline::{Affine, Bounds, Point};
 
 use super::gesture::{DragProgress, Gesture};
@@ -165,8 +165,15 @@ impl Tools {
             }
             Gesture::Move { by_m, .. } if by_m.norm() > 0.0 => {
                 let by = Affine::translation(by_m);
+                let neighbors = match modifiers.command {
+                    true => Neighbors::Detach,
+                    false => Neighbors::Follow,
+                };
                 Some(ToolEffect::Edit(EditTask::edit(
-                    move |document: &mut Document| document.transform_selection("move", by),
+                    move |document: &mut Document| {
+                        let selected = document.selected().clone();
+                        document.transform("move", &selected, by, neighbors)
+                    },
                 )))
             }
             // A path that is being drawn outlasts the drag.

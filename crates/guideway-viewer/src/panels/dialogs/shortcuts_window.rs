@@ -12,12 +12,13 @@ const HEIGHT: f32 = 740.0;
 const MARGIN: Vec2 = Vec2::new(32.0, 64.0);
 
 /// Mouse gestures and modifiers.
-const GESTURES: [&str; 4] = [
+const GESTURES: [&str; 5] = [
     "Wheel: zoom at the pointer. Middle or right button, or Space and the left button: pan.",
     "Shift while selecting adds to the selection; Ctrl or Alt removes from it.",
     "Shift while drawing or moving snaps to steps of 15°; Alt turns snapping off.",
-    "A selection box from right to left selects the paths that it crosses, one from left to right \
-     only the paths inside.",
+    "Ctrl at the end of a drag detaches what is moved from the paths that stay.",
+    "A selection box from right to left also selects the paths that it crosses, one from left to \
+     right only what is inside.",
 ];
 
 /// The window.
