@@ -16,6 +16,9 @@ const SOFTWARE_DEVICES: &[&str] = &[
 /// Debian packages of a virtual screen and synthetic input, for tests of the window.
 const SCREEN: &[&str] = &["xvfb", "xdotool", "libxkbcommon-x11-0"];
 
+/// Debian package that draws pages of PDF, for tests of floor plans.
+const PDF: &[&str] = &["poppler-utils"];
+
 /// A tool from crates.io, installed once into cargo's own folder.
 pub(crate) struct Tool {
     /// Name of the crate and of its program.
@@ -160,7 +163,7 @@ pub(crate) fn software_devices() -> Result<()> {
         return Ok(());
     }
     let is_installed = |package: &&str| command("dpkg").args(["--status", package]).succeeds();
-    let packages = [SOFTWARE_DEVICES, SCREEN].concat();
+    let packages = [SOFTWARE_DEVICES, SCREEN, PDF].concat();
     if packages.iter().all(is_installed) {
         return Ok(());
     }

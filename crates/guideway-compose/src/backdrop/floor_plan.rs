@@ -135,11 +135,16 @@ impl PreparedFloorPlan {
 /// Bytes that are examined: a map file takes 200, and comments may precede its fields.
 const EXAMINED: u64 = 1 << 16;
 
+/// First bytes of a PDF.
+const PDF: &[u8] = b"%PDF-";
+
 /// The way in which a file becomes a floor plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FloorPlanKind {
     /// A PNG, JPEG or PGM image, which needs an [`ImagePlacement`](crate::ImagePlacement).
     Image,
+    /// A page of a PDF, to be drawn as an image.
+    PdfPage,
     /// A `map.yaml` of ROS, which places its image itself.
     RosMap,
     /// Anything else: its reader tells whether it is a layout or a drawing.
@@ -159,6 +164,7 @@ impl FloorPlanKind {
         }
         match &*first {
             bytes if is_raster(bytes) => Self::Image,
+            bytes if bytes.starts_with(PDF) => Self::PdfPage,
             bytes if is_ros_map(bytes) => Self::RosMap,
             _ => Self::Layout,
         }
@@ -179,6 +185,7 @@ mod tests {
             (b"\x89PNG\r\n", FloorPlanKind::Image),
             (b"\xFF\xD8\xFF\xE0", FloorPlanKind::Image),
             (b"image: a.pgm\norigin: [0, 0, 0]\n", FloorPlanKind::RosMap),
+            (b"%PDF-1.7\n", FloorPlanKind::PdfPage),
             (b"levels:\n", FloorPlanKind::Layout),
         ] {
             std::fs::write(&path, bytes).unwrap();

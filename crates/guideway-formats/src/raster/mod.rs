@@ -15,4 +15,4 @@ mod png;
 mod read;
 
 pub use image::{ImagePlacement, MAX_PIXELS, Raster};
-pub use read::{is_raster, read_file};
+pub use read::{is_raster, read_bytes, read_file};

@@ -25,7 +25,15 @@ pub fn is_raster(bytes: &[u8]) -> bool {
 /// [`MAX_PIXELS`](super::MAX_PIXELS) pixels.
 pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Raster, ReadError> {
     let bytes = read_file_bytes(path, options, MAX_FILE_BYTES)?;
-    read(bytes).map_err(|problem| ReadError::new(path.to_string_lossy(), problem))
+    read_bytes(bytes, &path.to_string_lossy())
+}
+
+/// Reads a PNG, JPEG or PGM image from memory. Errors name it `name`.
+///
+/// # Errors
+/// As [`read_file`].
+pub fn read_bytes(bytes: Vec<u8>, name: &str) -> Result<Raster, ReadError> {
+    read(bytes).map_err(|problem| ReadError::new(name, problem))
 }
 
 fn read(bytes: Vec<u8>) -> Result<Raster, Problem> {

@@ -18,12 +18,28 @@ use crate::tools::PointerEvent;
 const FIRST_PX_PER_M: f64 = 20.0;
 
 impl App {
+    /// Shows the floor plan of a text: a file, or a file and its placement. An empty text removes
+    /// the present plan.
+    pub(super) fn set_floor_plan(&mut self, text: &str) {
+        let text = text.trim();
+        let is_file = PlanPlacement::parse(text).is_some_and(|plan| plan.file == text);
+        if is_file && !text.is_empty() {
+            return self.set_floor_plan_file(Path::new(text));
+        }
+        let LayerContext {
+            services, repaint, ..
+        } = &self.context;
+        self.floor_plan.set(text, services, repaint);
+    }
+
     /// Shows a file as the floor plan. The dialog opens for an image, whose scale the user has to
     /// set.
     pub(super) fn set_floor_plan_file(&mut self, file: &Path) {
-        let is_image = FloorPlanKind::of_file(file) == FloorPlanKind::Image;
+        let kind = FloorPlanKind::of_file(file);
+        let is_image = matches!(kind, FloorPlanKind::Image | FloorPlanKind::PdfPage);
         let placement = PlanPlacement {
             file: shown_path(file),
+            page: (kind == FloorPlanKind::PdfPage).then_some(1),
             size: match is_image {
                 true => PlanSize::PxPerM(FIRST_PX_PER_M),
                 false => PlanSize::Scale(1.0),

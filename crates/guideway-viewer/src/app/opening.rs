@@ -44,11 +44,14 @@ impl App {
         }
     }
 
-    /// Opens a dropped layout. A dropped map of ROS or image becomes the floor plan.
+    /// Opens a dropped layout. A dropped map of ROS, image or PDF becomes the
+    /// floor plan.
     pub(super) fn open_dropped(&mut self, file: &Path) {
         match FloorPlanKind::of_file(file) {
             FloorPlanKind::Layout => self.open_any(file.to_path_buf()),
-            FloorPlanKind::RosMap | FloorPlanKind::Image => self.set_floor_plan_file(file),
+            FloorPlanKind::RosMap | FloorPlanKind::Image | FloorPlanKind::PdfPage => {
+                self.set_floor_plan_file(file);
+            }
         }
     }
 }

@@ -58,10 +58,7 @@ impl App {
             }
             Action::Export(export) => self.export_as(export),
             Action::ExportOver(export) => self.export(export),
-            Action::SetFloorPlan(text) => {
-                let services = &self.context.services;
-                self.floor_plan.set(&text, services, repaint);
-            }
+            Action::SetFloorPlan(text) => self.set_floor_plan(&text),
             Action::PlaceFloorPlan(placement) => self.place_floor_plan(&placement),
             Action::MakeNetwork => self.make_network(),
             Action::Activate(index) => self.files.activate(index),

@@ -7,6 +7,8 @@ use guideway_spline::{Affine, Point};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlanPlacement {
     pub(crate) file: String,
+    /// Page of a PDF, from 1.
+    pub(crate) page: Option<u32>,
     /// The size of the plan.
     pub(crate) size: PlanSize,
     /// Counter-clockwise rotation, in degrees.
@@ -39,6 +41,7 @@ impl PlanPlacement {
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let mut placement = Self {
             file: text.to_owned(),
+            page: None,
             size: PlanSize::Scale(1.0),
             rotate_deg: 0.0,
             offset_m: Point::default(),
@@ -56,6 +59,7 @@ impl PlanPlacement {
         while let Some(part) = parts.next() {
             let (key, value) = part.split_once('=')?;
             match key.trim() {
+                "page" => placement.page = Some(value.trim().parse().ok()?),
                 "px-per-m" => placement.size = PlanSize::PxPerM(number(value)?),
                 "scale" => placement.size = PlanSize::Scale(number(value)?),
                 "rotate" => placement.rotate_deg = number(value)?,
@@ -68,7 +72,7 @@ impl PlanPlacement {
 
     /// The text of the placement.
     pub(crate) fn text(&self) -> String {
-        let mut keys = Vec::new();
+        let mut keys = Vec::from_iter(self.page.map(|page| format!("page={page}")));
         match self.size {
             PlanSize::PxPerM(px_per_m) => keys.push(format!("px-per-m={}", rounded(px_per_m))),
             PlanSize::Scale(1.0) => {}
@@ -148,6 +152,7 @@ mod tests {
         for text in [
             "hall.png@px-per-m=20,offset=0,0",
             "hall.png@px-per-m=20.5,rotate=-90,offset=-3,2.25",
+            "plan.pdf@page=3,px-per-m=40,offset=0,0",
             "plan.dxf",
             "plan.dxf@scale=0.001",
             "a@b/plan.dxf@scale=0.0254,rotate=3,offset=1,-7",
@@ -162,7 +167,8 @@ mod tests {
             "a.png@px-per-m=x",
             "a.png@offset=1",
             "a@scale=2,3",
-            "a@page=3",
+            "a@page=x",
+            "a@sheet=3",
             "a@scale=inf",
         ] {
             assert_eq!(PlanPlacement::parse(text), None, "{text}");

@@ -258,4 +258,11 @@ fn dropped_maps_and_images_become_floor_plans() {
     let placed = "/hall.pgm@px-per-m=20,offset=0,0";
     assert_eq!((&*plan, prompt, files), (placed, None, 2));
     assert!(window.app().plan_editor.is_open, "its scale is to be set");
+    // A file that is named in the dialog is one that is dropped.
+    let page = folder.path().join("hall.pdf").display().to_string();
+    std::fs::write(&page, b"%PDF-1.7\n").unwrap();
+    window.key(Modifiers::COMMAND, Key::L);
+    window.answer(&page);
+    let plan = window.app().floor_plan.text().to_owned();
+    assert_eq!(plan, format!("{page}@page=1,px-per-m=20,offset=0,0"));
 }

@@ -29,6 +29,8 @@ pub(crate) struct Input {
     pub(crate) offset_m: Option<Point<f64>>,
     /// Pixels per meter, for an image.
     pub(crate) px_per_m: Option<f64>,
+    /// Page from 1, for a PDF.
+    pub(crate) page: Option<u32>,
 }
 
 impl Input {
@@ -65,11 +67,12 @@ impl Input {
             "rotate" => self.rotate_deg = Some(values::degrees(value)?),
             "offset" => self.offset_m = Some(values::point(value)?),
             "px-per-m" => self.px_per_m = Some(values::factor(value)?),
+            "page" => self.page = Some(values::page(value)?),
             _ => {
-                let near = near_names(key, ["scale", "rotate", "offset", "px-per-m"]);
+                let near = near_names(key, ["scale", "rotate", "offset", "px-per-m", "page"]);
                 let near = near.first().map(|near| format!("did you mean `{near}`? "));
                 return Err(format!(
-                    "{}the keys are scale, rotate and offset; px-per-m for images",
+                    "{}the keys are scale, rotate and offset; px-per-m for images, page for PDF",
                     near.unwrap_or_default()
                 ));
             }
@@ -79,16 +82,18 @@ impl Input {
 
     /// Rejects a key that applies only to images.
     pub(crate) fn check_keys(&self) -> Result<(), UserError> {
-        match self.px_per_m {
-            None => Ok(()),
-            Some(_) => Err(usage_error(
-                format!(
-                    "{}: `px-per-m` applies only to images",
-                    shown_path(&self.path)
-                ),
-                "Use `scale` for a layout, such as `plan.dxf@scale=0.001`",
-            )),
-        }
+        let key = match (self.px_per_m, self.page) {
+            (None, None) => return Ok(()),
+            (Some(_), _) => "px-per-m",
+            (None, Some(_)) => "page",
+        };
+        Err(usage_error(
+            format!(
+                "{}: `{key}` applies only to images and pages of PDF",
+                shown_path(&self.path)
+            ),
+            "Use `scale` for a layout, such as `plan.dxf@scale=0.001`",
+        ))
     }
 
     /// The transform of the placement; `None` without one.

@@ -102,6 +102,14 @@ pub(crate) fn factor(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A page, counted from 1.
+pub(crate) fn page(text: &str) -> Result<u32, String> {
+    match text.trim().parse::<u32>() {
+        Ok(page) if page > 0 => Ok(page),
+        _ => Err("write the number of a page, from 1".into()),
+    }
+}
+
 /// A width in pixels.
 pub(crate) fn width_px(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {

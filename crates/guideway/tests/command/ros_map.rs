@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use serde_json::Value;
 
@@ -124,6 +125,38 @@ fn map_is_embedded_in_svg() {
         fs::read_to_string(&picture)
             .unwrap()
             .contains("data:image/png;base64,iVBOR")
+    );
+}
+
+/// A page of a PDF that the command wrote lies where an image of it would.
+#[test]
+fn page_of_a_pdf_is_a_floor_plan() {
+    if Command::new("pdftoppm").arg("-v").output().is_err() {
+        println!("SKIPPED: this needs pdftoppm of Poppler");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let wall = lines(folder.path(), "wall.geojson", &[[-10.0, -2.0, 10.0, -2.0]]);
+    let pdf = folder.path().join("wall.pdf");
+    let args = ["render", text(&wall), "-o", text(&pdf), "--min-px", "4"];
+    let view = ["--size", "80x80", "--center", "0,0", "--scale", "1"];
+    let output = run(&[&args[..], &view].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // The page has 96 pixels per inch, its image 200.
+    let place = "px-per-m=2.083333,offset=-40,-40";
+    let plan = |page: u32| format!("{}@page={page},{place}", text(&pdf));
+    let picture = Picture::of(folder.path(), &plan(1));
+    assert_eq!((picture.at(0, 10), picture.at(20, -2)), (WHITE, WHITE));
+    assert!(picture.at(0, -2)[1] < 128, "{:?}", picture.at(0, -2));
+    let layout = far(folder.path());
+    let no_page = plan(2);
+    let args = ["render", text(&layout), "-o", "-", "--floor-plan", &no_page];
+    let output = run(&args);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("fewer pages"),
+        "{}",
+        stderr(&output)
     );
 }
 

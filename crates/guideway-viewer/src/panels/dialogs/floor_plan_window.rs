@@ -12,6 +12,8 @@ use crate::language::t;
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 /// Range of typed distances and offsets, in meters.
 const MAX_M: f64 = 1e7;
+/// Greatest page to choose.
+const MAX_PAGE: u32 = 9_999;
 /// Width of the dialog, in points.
 const WIDTH: f32 = 280.0;
 
@@ -98,6 +100,13 @@ impl Place<'_> {
         let mut new = self.present.clone();
         ui.add_enabled_ui(!is_locked, |ui| {
             Grid::new("floor plan").num_columns(2).show(ui, |ui| {
+                if let Some(page) = &mut new.page {
+                    field(
+                        ui,
+                        t("Page"),
+                        DragValue::new(page).range(1..=MAX_PAGE).speed(0.05),
+                    );
+                }
                 let (label, value) = match &mut new.size {
                     PlanSize::PxPerM(px_per_m) => (t("Pixels per meter"), px_per_m),
                     PlanSize::Scale(scale) => (t("Scale"), scale),

@@ -19,9 +19,10 @@ impl PromptKind {
             Self::ExportSvg => t("Export SVG file"),
             Self::ExportPdf => t("Export PDF file"),
             Self::SaveProject => t("Save project"),
-            Self::FloorPlan => t("Floor plan: an image with its scale, such as \
-                 hall.png@px-per-m=20,offset=-3,-2,rotate=90, a map.yaml of ROS, or any layout or \
-                 drawing. Empty removes the floor plan."),
+            Self::FloorPlan => t(
+                "Floor plan: an image, a page of a PDF, a map.yaml of ROS, or any layout or \
+                 drawing. Empty removes the floor plan.",
+            ),
         }
     }
 
