@@ -8,13 +8,18 @@ use crate::display_settings::DisplaySettings;
 
 /// End of the names of project files. `guideway.toml` is the configuration of `check`.
 pub(crate) const SUFFIX: &str = ".guideway-project.toml";
+/// A shorter end that is understood too.
+const SHORT_SUFFIX: &str = ".guideway.toml";
 /// Version of the content.
 const VERSION: u32 = 1;
 
 /// Returns `true` if a file is a project by its name.
 pub(crate) fn is_project(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    name.to_lowercase().ends_with(SUFFIX)
+    let name = name.to_lowercase();
+    [SUFFIX, SHORT_SUFFIX]
+        .iter()
+        .any(|suffix| name.ends_with(suffix))
 }
 
 /// The content of a project.
@@ -198,6 +203,7 @@ mod tests {
         for (name, is) in [
             ("a/hall.guideway-project.toml", true),
             ("HALL.GUIDEWAY-PROJECT.TOML", true),
+            ("hall.guideway.toml", true),
             ("guideway.toml", false),
             ("hall.guideway-project.toml/a.lif", false),
         ] {

@@ -1,8 +1,8 @@
-//! Compares layouts as text, one line per path and node.
+//! Compares layouts as text, one line per element.
 
-use guideway_layout::{Layout, PathRef};
+use guideway_layout::{Layout, Level, PathRef, VehicleType};
 
-/// Everything that a file holds of paths and nodes, one line each.
+/// Everything that a file holds of paths, nodes, stations, levels and vehicle types, one line each.
 pub(super) fn content(layout: &Layout) -> Vec<String> {
     let paths = &layout.paths;
     let path = |path: PathRef<'_>| {
@@ -23,9 +23,33 @@ pub(super) fn content(layout: &Layout) -> Vec<String> {
         )
     };
     let nodes = &layout.nodes;
-    let node = |node| format!("node {} {:?}", nodes.id(node), nodes.position_m(node));
-    let all_nodes = (0..nodes.len() as u32).map(node);
-    paths.iter().map(path).chain(all_nodes).collect()
+    let node = |row: u32| {
+        let types: Vec<&str> = nodes.vehicle_types().of(row as usize).collect();
+        format!(
+            "node {} {:?} {:?} {types:?}",
+            nodes.id(row),
+            nodes.position_m(row),
+            nodes.level(row)
+        )
+    };
+    let stations = &layout.stations;
+    let station = |row: u32| {
+        format!(
+            "station {} {:?} {:?} {:?}",
+            stations.id(row),
+            stations.position_m(row),
+            stations.nodes(row),
+            stations.level(row)
+        )
+    };
+    let level = |level: &Level| format!("level {} {:?}", level.id, level.name);
+    let vehicle_type = |of: &VehicleType| format!("vehicle type {}", of.id);
+    (paths.iter().map(path))
+        .chain((0..nodes.len() as u32).map(node))
+        .chain((0..stations.len() as u32).map(station))
+        .chain(layout.levels.iter().map(level))
+        .chain(layout.vehicle_types.iter().map(vehicle_type))
+        .collect()
 }
 
 /// The first line that differs between two layouts.

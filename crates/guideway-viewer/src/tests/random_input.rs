@@ -3,7 +3,8 @@
 use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 
 use super::test_window::TestWindow;
-use crate::command::{Command, SHORTCUTS};
+use crate::command::{Command, MENUS, SHORTCUTS, shortcuts_of};
+use crate::panels::SideTab;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 pub(super) struct RandomSource(pub(super) u64);
@@ -30,34 +31,65 @@ impl RandomSource {
 /// Control points beyond which paths are no longer duplicated or refined.
 const MAX_POINTS: usize = 20_000;
 
+/// Texts for fields, dialogs and the strip of typed points: sound ones and garbage.
+const TEXTS: [&str; 14] = [
+    "speed > 3",
+    "12,3",
+    "@2,-1",
+    "5<30",
+    "r2",
+    "1.5",
+    "0.4 km/h",
+    "-7",
+    "1e99",
+    "hall 2",
+    "tug: 1.5, fork",
+    "lane 1",
+    "\u{5e9}\u{1f600}\0",
+    "",
+];
+
 /// Sends one random input. Returns its kind.
 pub(super) fn act(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
     let at = random.place();
-    let what = match random.below(12) {
-        0 => {
+    let what = match random.below(16) {
+        0 | 1 => {
             window.click(at);
             "click"
         }
-        1 | 2 => {
+        2 | 3 => {
             let to = random.place();
             window.drag(at, to);
             "drag"
         }
-        3 => {
+        4 => {
             window.wheel(at, random.below(9) as f32 - 4.0);
             "wheel"
         }
-        4 => {
+        5 => {
             resize(window, random);
             "resize"
         }
-        5 => {
-            window.harness.event(Event::Text("speed > 3".into()));
+        6 => {
+            let text = TEXTS[random.below(TEXTS.len())];
+            window.harness.event(Event::Text(text.into()));
             "text"
         }
-        6 => {
+        7 => {
             window.harness.event(Event::PointerGone);
             "pointer gone"
+        }
+        8 => {
+            window.right_click(at);
+            "right click"
+        }
+        9 | 10 => {
+            use_panel(window, random);
+            "side panel"
+        }
+        11 => {
+            choose(window, random);
+            "menu"
         }
         _ => {
             press(window, random);
@@ -66,6 +98,48 @@ pub(super) fn act(window: &mut TestWindow, random: &mut RandomSource) -> &'stati
     };
     window.harness.step();
     what
+}
+
+/// Clicks in a tab of the side panel, and types a text that Enter, Tab or Escape ends. The tab of
+/// the layers is left out: it closes files.
+fn use_panel(window: &mut TestWindow, random: &mut RandomSource) {
+    let tabs = [
+        SideTab::Properties,
+        SideTab::Properties,
+        SideTab::Find,
+        SideTab::Findings,
+        SideTab::View,
+    ];
+    window.app().side.open(tabs[random.below(tabs.len())]);
+    window.harness.step();
+    let at = Pos2::new(
+        890.0 + random.below(300) as f32,
+        70.0 + random.below(500) as f32,
+    );
+    window.click(at);
+    let text = TEXTS[random.below(TEXTS.len())];
+    window.harness.event(Event::Text(text.into()));
+    window.harness.step();
+    let ends = [Key::Enter, Key::Tab, Key::Escape];
+    window.key(Modifiers::NONE, ends[random.below(ends.len())]);
+}
+
+/// Chooses a random entry of a menu that has no shortcut, and answers its dialog, if any.
+fn choose(window: &mut TestWindow, random: &mut RandomSource) {
+    let groups = MENUS.iter().flat_map(|menu| menu.groups);
+    let commands = groups.flat_map(|group| group.iter().copied());
+    let commands: Vec<Command> = commands
+        .filter(|command| shortcuts_of(*command).next().is_none() && may_run(window, *command))
+        .collect();
+    let command = commands[random.below(commands.len())];
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(command, &ctx);
+    window.harness.run_steps(2);
+    if random.below(2) == 0 {
+        let text = TEXTS[random.below(TEXTS.len())];
+        window.harness.event(Event::Text(text.into()));
+        window.key(Modifiers::NONE, Key::Enter);
+    }
 }
 
 fn resize(window: &mut TestWindow, random: &mut RandomSource) {
@@ -84,14 +158,26 @@ fn resize(window: &mut TestWindow, random: &mut RandomSource) {
     window.harness.set_size(Vec2::new(1200.0, 800.0));
 }
 
-/// Presses the shortcut of a random command that neither ends the run nor reads or writes files.
+/// Presses the shortcut of a random command.
 fn press(window: &mut TestWindow, random: &mut RandomSource) {
     let (command, shortcut) = &SHORTCUTS[random.below(SHORTCUTS.len())];
-    let geometry = window.document().layout().paths.geometry();
-    let is_too_large = matches!(
+    if may_run(window, *command) {
+        window.key(shortcut.modifiers, shortcut.logical_key);
+    }
+}
+
+/// Returns `true` for a command that neither ends the run, nor reads or writes files, nor makes a
+/// large layout larger.
+fn may_run(window: &mut TestWindow, command: Command) -> bool {
+    let grows = matches!(
         command,
-        Command::Duplicate | Command::Refine | Command::Paste | Command::Array
-    ) && geometry.point_count() > MAX_POINTS;
+        Command::Duplicate
+            | Command::Refine
+            | Command::Paste
+            | Command::Array
+            | Command::Split
+            | Command::SplitCrossings
+    );
     let ends_the_run = matches!(
         command,
         Command::Quit
@@ -99,11 +185,12 @@ fn press(window: &mut TestWindow, random: &mut RandomSource) {
             | Command::Reload
             | Command::Save
             | Command::SaveAs
+            | Command::SaveProject
             | Command::NewLayout
+            | Command::ExampleSite
     );
-    if !is_too_large && !ends_the_run {
-        window.key(shortcut.modifiers, shortcut.logical_key);
-    }
+    let points = window.document().layout().paths.geometry().point_count();
+    !ends_the_run && !(grows && points > MAX_POINTS)
 }
 
 /// Opens the file again if random input closed it, and closes all others.

@@ -19,8 +19,8 @@ use guideway_document::{Document, replay};
 use guideway_layout::Layout;
 
 use super::content::difference;
+use super::lane_network::network;
 use super::random_input::{RandomSource, act, close_dialogs, keep_open};
-use super::services::lanes;
 use super::test_window::TestWindow;
 use crate::command::Command;
 use crate::editing::entries_on_disk;
@@ -92,7 +92,7 @@ impl Record {
 
 impl Soak {
     fn new(seed: u64) -> Self {
-        let first = lanes(60);
+        let first = network(40);
         let store = FileStore::with(&first);
         let window = open_window(&store);
         Self {
