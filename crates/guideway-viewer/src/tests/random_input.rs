@@ -45,7 +45,7 @@ const TEXTS: [&str; 14] = [
     "hall 2",
     "tug: 1.5, fork",
     "lane 1",
-    "\u{5e9}\u{1f600}\0",
+    "Gr\u{f6}\u{df}e\0",
     "",
 ];
 

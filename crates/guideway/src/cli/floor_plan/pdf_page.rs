@@ -75,8 +75,8 @@ fn draw(
         Ok(status) if status.success() && !bytes.is_empty() => Ok(bytes),
         _ => Err(problem(
             format!(
-                "{name}: `{PROGRAM}` cannot draw page {page}: the file has fewer pages, is damaged, \
-                 or needs a password"
+                "{name}: `{PROGRAM}` cannot draw page {page}: the file has fewer pages, is \
+                 damaged, or needs a password"
             ),
             "Choose another page, such as `plan.pdf@page=1,px-per-m=40`, or save it as PNG",
         )),
