@@ -73,6 +73,25 @@ fn typed_points_are_exact_and_a_right_click_finishes() {
 }
 
 #[test]
+fn minus_begins_a_point_instead_of_zooming_out() {
+    let mut window = TestWindow::showing(lanes(1));
+    let scale = |window: &mut TestWindow| window.app().canvas.camera.view().unwrap().px_per_m();
+    let before = scale(&mut window);
+    window.key(NONE, Key::D);
+    for point in ["-3,-4", "-1,-4"] {
+        window.key(NONE, Key::Minus);
+        window.type_line(point);
+    }
+    window.key(NONE, Key::Enter);
+    assert_eq!(scale(&mut window), before);
+    let ends = window.document().layout().paths.get(1).ends().unwrap();
+    assert_eq!(ends, (Point::new(-3.0, -4.0), Point::new(-1.0, -4.0)));
+    window.key(NONE, Key::V);
+    window.key(NONE, Key::Minus);
+    assert!(scale(&mut window) < before, "no tool that adds points");
+}
+
+#[test]
 fn wrong_text_stays_with_its_error_and_escape_closes_it_first() {
     let mut window = new_layout();
     window.key(NONE, Key::D);

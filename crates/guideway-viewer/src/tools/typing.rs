@@ -23,7 +23,7 @@ impl Tools {
         self.typed.as_ref()
     }
 
-    /// Takes a typed text: the first digit begins one, further signs continue it. Returns `false`
+    /// Takes a typed text: a digit or sign begins one, further ones continue it. Returns `false`
     /// if the text is none of theirs.
     pub(crate) fn type_text(&mut self, text: &str) -> bool {
         if self.typed.is_none() && !self.begins_text(text) {
@@ -51,8 +51,12 @@ impl Tools {
                 self.typed = Some(TypedText::default());
             }
             // The text of the key follows.
-            let begins_radius = key == Key::R && modifiers.is_none() && self.begins_text("r");
-            return match opens || begins_radius {
+            let begins = match key {
+                Key::R => self.begins_text("r"),
+                Key::Minus => self.begins_text("-"),
+                _ => false,
+            };
+            return match opens || begins && modifiers.is_none() {
                 true => KeyAnswer::Taken(None),
                 false => KeyAnswer::NotTaken,
             };
@@ -73,7 +77,8 @@ impl Tools {
 
     /// Returns `true` if a text begins typed input.
     fn begins_text(&self, text: &str) -> bool {
-        let is_number = text.starts_with(|sign: char| sign.is_ascii_digit() || ".@".contains(sign));
+        let is_number =
+            text.starts_with(|sign: char| sign.is_ascii_digit() || "-.@".contains(sign));
         let is_radius = text.starts_with(['r', 'R']) && self.tool == Tool::Arc;
         (is_number && self.tool.adds_points()) || (is_radius && self.points().len() == 2)
     }
