@@ -235,7 +235,10 @@ fn german_window_has_german_menus_panels_and_notices() {
     }
     window.key(Modifiers::COMMAND, Key::A);
     window.harness.run_steps(3);
-    let counts = window.harness.query_all_by_label("3 Wege und 6 Knoten gewählt").count();
+    let counts = window
+        .harness
+        .query_all_by_label("3 Wege und 6 Knoten gewählt")
+        .count();
     assert!(counts > 0);
     // A notice of a background thread.
     window.key(Modifiers::NONE, Key::Delete);
