@@ -1,6 +1,5 @@
 //! Reads the processor, memory and system of this computer for the report of a measurement.
 
-use std::fs;
 use std::thread;
 
 use serde::{Deserialize, Serialize};
@@ -28,21 +27,49 @@ pub struct Machine {
 impl Machine {
     /// Describes this computer.
     pub fn here() -> Self {
-        let read = |path| fs::read_to_string(path).unwrap_or_default();
         Self {
-            cpu: value(&read("/proc/cpuinfo"), "model name", ':'),
             cores: thread::available_parallelism().map_or(1, usize::from),
-            memory_bytes: value(&read("/proc/meminfo"), "MemTotal", ':').and_then(|v| bytes(&v)),
-            os: os(
-                &read("/etc/os-release"),
-                &read("/proc/sys/kernel/osrelease"),
-            ),
             guideway: env!("CARGO_PKG_VERSION").to_owned(),
             profile: if cfg!(debug_assertions) {
                 "debug".to_owned()
             } else {
                 "release".to_owned()
             },
+            ..Self::of_system()
+        }
+    }
+
+    /// Processor, memory and system, as the files of Linux say.
+    #[cfg(target_os = "linux")]
+    fn of_system() -> Self {
+        let read = |path| std::fs::read_to_string(path).unwrap_or_default();
+        Self {
+            cpu: value(&read("/proc/cpuinfo"), "model name", ':'),
+            memory_bytes: value(&read("/proc/meminfo"), "MemTotal", ':').and_then(|v| bytes(&v)),
+            os: os(
+                &read("/etc/os-release"),
+                &read("/proc/sys/kernel/osrelease"),
+            ),
+            ..Self::default()
+        }
+    }
+
+    /// Processor, memory and system, as calls of the system say.
+    #[cfg(not(target_os = "linux"))]
+    fn of_system() -> Self {
+        use sysinfo::{CpuRefreshKind, MemoryRefreshKind, RefreshKind, System};
+        let wanted = RefreshKind::nothing()
+            .with_cpu(CpuRefreshKind::nothing())
+            .with_memory(MemoryRefreshKind::nothing().with_ram());
+        let system = System::new_with_specifics(wanted);
+        let cpu = system.cpus().first().map(|cpu| cpu.brand().trim());
+        let named = System::long_os_version().unwrap_or_else(|| std::env::consts::OS.to_owned());
+        let memory_bytes = system.total_memory();
+        Self {
+            cpu: cpu.filter(|name| !name.is_empty()).map(str::to_owned),
+            memory_bytes: (memory_bytes > 0).then_some(memory_bytes),
+            os: format!("{named}, {}", std::env::consts::ARCH),
+            ..Self::default()
         }
     }
 }
@@ -68,6 +95,7 @@ impl Machine {
 }
 
 /// The value of the first line `key <separator> value`.
+#[cfg(any(target_os = "linux", test))]
 fn value(text: &str, key: &str, separator: char) -> Option<String> {
     let pairs = text.lines().filter_map(|line| line.split_once(separator));
     let mut values = pairs.filter(|(name, _)| name.trim() == key);
@@ -76,11 +104,13 @@ fn value(text: &str, key: &str, separator: char) -> Option<String> {
 }
 
 /// `1234 kB` in bytes.
+#[cfg(any(target_os = "linux", test))]
 fn bytes(text: &str) -> Option<u64> {
     let kib: u64 = text.strip_suffix("kB")?.trim().parse().ok()?;
     kib.checked_mul(1024)
 }
 
+#[cfg(any(target_os = "linux", test))]
 fn os(release: &str, kernel: &str) -> String {
     let name =
         value(release, "PRETTY_NAME", '=').unwrap_or_else(|| std::env::consts::OS.to_owned());

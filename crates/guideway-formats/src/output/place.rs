@@ -29,6 +29,9 @@ impl Place {
     /// Looks at the path of an output file.
     pub(super) fn find(path: &Path) -> io::Result<Self> {
         let write = |path: &Path| OpenOptions::new().write(true).open(path);
+        if cfg!(windows) && is_device_of_windows(path) {
+            return Ok(Self::Stream(write(path)?));
+        }
         match fs::metadata(path) {
             Ok(there) if there.is_dir() => Err(ErrorKind::IsADirectory.into()),
             Ok(there) if !there.is_file() => Ok(Self::Stream(write(path)?)),
@@ -51,6 +54,15 @@ impl Place {
             Err(error) => Err(error),
         }
     }
+}
+
+/// Returns `true` if Windows takes a path for a device: `NUL` or `CON` in any folder, or a path
+/// below `\\\\.\\`. It calls them files when asked.
+fn is_device_of_windows(path: &Path) -> bool {
+    let names = ["NUL", "CON", "NUL:", "CON:"];
+    let name = path.file_name().unwrap_or_default();
+    let is_name = names.iter().any(|device| name.eq_ignore_ascii_case(device));
+    is_name || path.as_os_str().as_encoded_bytes().starts_with(br"\\.\")
 }
 
 /// The end of a chain of symbolic links to a file that does not exist.
@@ -84,4 +96,19 @@ pub(super) fn is_open_file(path: &Path, file: &File) -> bool {
     let open = file.try_clone().and_then(same_file::Handle::from_file);
     let named = same_file::Handle::from_path(path);
     matches!((open, named), (Ok(open), Ok(named)) if open == named)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn knows_the_devices_of_windows() {
+        for device in ["NUL", "nul", "a/CON", "nul:", r"\\.\COM1"] {
+            assert!(is_device_of_windows(Path::new(device)), "{device}");
+        }
+        for file in ["NUL.png", "annul", "a/NULL", "con/site.png", r"\\server\a"] {
+            assert!(!is_device_of_windows(Path::new(file)), "{file}");
+        }
+    }
 }

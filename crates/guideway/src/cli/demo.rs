@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let (findings, said) = draw_findings(folder, &faulty, out)?;
     let made = [site, crowd, findings];
     let total_ms: f64 = made.iter().map(|made| made.ms).sum();
-    let folder = folder.canonicalize().unwrap_or_else(|_| folder.clone());
+    let folder = dunce::canonicalize(folder).unwrap_or_else(|_| folder.clone());
     let files: Vec<Value> = made
         .iter()
         .map(|made| json!({ "file": made.name, "shows": made.shows, "ms": made.ms }))

@@ -269,10 +269,10 @@ pub(crate) fn check_no_stdout(output: &Path) -> Result<(), UserError> {
 
 /// A path without links, also of a file that does not exist in a folder that does.
 pub(crate) fn resolved(path: &Path) -> PathBuf {
-    let whole = path.canonicalize();
+    let whole = dunce::canonicalize(path);
     let in_folder = || {
         let folder = path.parent().filter(|folder| *folder != Path::new(""));
-        let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
+        let folder = dunce::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
         Some(folder.join(path.file_name()?))
     };
     let resolved = whole.ok().or_else(in_folder);
