@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use guideway::arrow::{batches, read_batches};
+use guideway::arrow::{collected_batches, read_batches};
 use guideway::formats::ReadOptions;
 use guideway::layout::{CompareOptions, Layout, Severity, changes, near_names};
 use guideway::network::{RouteOptions, Router, build};
@@ -76,15 +76,15 @@ impl PyLayout {
     ) -> PyResult<Bound<'py, PyCapsule>> {
         // The interface allows a producer to ignore the request.
         let _ = requested_schema;
-        let failed =
-            |error: String| bad_argument(error, "Correct the layout: `check` lists faults");
-        let (schema, all) = py.detach(|| {
-            let batches = batches(&self.layout).map_err(|error| failed(error.to_string()))?;
-            let schema = arrow_array::RecordBatchReader::schema(&batches);
-            let all = batches.collect::<Result<Vec<_>, _>>();
-            Ok::<_, PyErr>((schema, all.map_err(|error| failed(error.to_string()))?))
-        })?;
-        to_capsule(py, schema, all)
+        let batches = py
+            .detach(|| collected_batches(&self.layout))
+            .map_err(|error| {
+                bad_argument(
+                    error.to_string(),
+                    "Correct the layout: `check` lists faults",
+                )
+            })?;
+        to_capsule(py, batches)
     }
 
     /// Number of edges.

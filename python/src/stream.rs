@@ -3,9 +3,8 @@
 
 use std::ffi::CStr;
 
+use arrow_array::RecordBatchReader;
 use arrow_array::ffi_stream::{FFI_ArrowArrayStream, RecordBatchStreamReader};
-use arrow_array::{RecordBatch, RecordBatchIterator, RecordBatchReader};
-use arrow_schema::SchemaRef;
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 
@@ -17,11 +16,9 @@ const CAPSULE: &CStr = c"arrow_array_stream";
 /// Record batches as a capsule of the interface.
 pub(crate) fn to_capsule<'py>(
     py: Python<'py>,
-    schema: SchemaRef,
-    batches: Vec<RecordBatch>,
+    batches: impl RecordBatchReader + Send + 'static,
 ) -> PyResult<Bound<'py, PyCapsule>> {
-    let reader = RecordBatchIterator::new(batches.into_iter().map(Ok), schema);
-    let stream = FFI_ArrowArrayStream::new(Box::new(reader));
+    let stream = FFI_ArrowArrayStream::new(Box::new(batches));
     PyCapsule::new_with_value(py, stream, CAPSULE)
 }
 

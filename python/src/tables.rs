@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use arrow_array::builder::{ListBuilder, StringBuilder};
 use arrow_array::{
-    Array, ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray, UInt32Array,
+    Array, ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator,
+    StringArray, UInt32Array,
 };
 use arrow_schema::{ArrowError, Field, Schema};
 use guideway::layout::{Attribute, Attributes, Direction, Layout, RunPoints, Value, Values};
@@ -36,7 +37,8 @@ impl Table {
     ) -> PyResult<Bound<'py, PyCapsule>> {
         // The interface allows a producer to ignore the request.
         let _ = requested_schema;
-        to_capsule(py, self.batch.schema(), vec![self.batch.clone()])
+        let batches = RecordBatchIterator::new([Ok(self.batch.clone())], self.batch.schema());
+        to_capsule(py, batches)
     }
 
     fn __len__(&self) -> usize {

@@ -5,7 +5,7 @@
 //! | [`Document`] | layout or scene | scene, selection, undo history, journal entries |
 //! | `edit` | selection, pointer positions | [`Change`]s, applied as undoable steps |
 //! | [`Index`] | layout | paths and nodes near a place, paths at a node |
-//! | [`pick`], [`nearest`] | a point | the path under it |
+//! | [`pick`], [`pick_element`], [`nearest`] | a point | the path or element under it |
 //! | [`Query`], [`search`], [`locate`] | text | paths, nodes, stations |
 //! | [`measure`] | a path | lengths and radii |
 //! | [`decorations`] | document, view, settings | marks, outlines and draw lists |
@@ -28,6 +28,7 @@ mod journal;
 mod locate;
 pub mod measure;
 mod pick;
+mod pick_element;
 mod query;
 mod reverse_pairs;
 mod search;
@@ -53,6 +54,7 @@ pub use index::Index;
 pub use journal::{JournalEntry, ReplayProgress, count_records, replay};
 pub use locate::{locate, located};
 pub use pick::{Hit, nearest, pick};
+pub use pick_element::pick_element;
 pub use query::{Column, Query, QueryError};
 pub use reverse_pairs::ReversePairs;
 pub use roaring::RoaringBitmap as PathSet;

@@ -1,9 +1,9 @@
-//! Elements as the page shows them: hit test, search, properties, outlines.
+//! Elements as the page shows them: search, properties, outlines.
 
-use guideway::document::{Column, Element, Index, Query, pick, search};
+use guideway::document::{Column, Element, Index, Query, search};
 use guideway::layout::{Layout, UserError, Value as Cell};
-use guideway::scene::{LineRule, Scene, Table, View};
-use guideway::spline::{Bounds, Point, uniform};
+use guideway::scene::Table;
+use guideway::spline::{Bounds, uniform};
 use serde_json::{Value, json};
 
 use crate::look::usage;
@@ -12,46 +12,6 @@ use crate::look::usage;
 const MAX_POINTS: usize = 4096;
 /// Lines of a segment of an outline.
 const LINES: usize = 16;
-
-/// The place of a hit test.
-pub(crate) struct At<'a> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) index: &'a Index,
-    pub(crate) view: &'a View,
-    pub(crate) rule: LineRule,
-    pub(crate) reach_px: f64,
-    pub(crate) max_candidates: usize,
-}
-
-/// The element at a pixel: a station, then a node, then a path.
-pub(crate) fn hit(at: &At<'_>, x: f64, y: f64) -> Option<Element> {
-    let point_m = at.view.world_from_pixel(Point::new(x, y));
-    place(at, point_m).or_else(|| {
-        let (scale, reach) = (at.view.px_per_m(), at.reach_px);
-        let place = (at.scene, at.index);
-        let hit = pick(place, at.rule, scale, point_m, reach, at.max_candidates)?;
-        Some(Element::Path(hit.path))
-    })
-}
-
-/// The nearest node within reach, or its station.
-fn place(at: &At<'_>, point_m: Point<f64>) -> Option<Element> {
-    let layout = at.scene.layout();
-    let reach_m = at.reach_px / at.view.px_per_m();
-    let spot = Bounds {
-        min: point_m,
-        max: point_m,
-    };
-    let distance_m = |node: &u32| layout.nodes.position_m(*node).distance(point_m);
-    let near = at.index.nodes_in(spot.inflated(reach_m));
-    let near = near.filter(|node| at.scene.shows_level(Table::Nodes.level(layout, *node)));
-    let node = near
-        .take(at.max_candidates)
-        .min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
-    let node = node.filter(|node| distance_m(node) <= reach_m)?;
-    let station = at.index.stations_at(node).next();
-    Some(station.map_or(Element::Node(node), Element::Station))
-}
 
 /// The element of a kind and row.
 pub(crate) fn named(layout: &Layout, kind: &str, row: u32) -> Result<Element, UserError> {

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 use guideway::compose::{MarkedRoute, NoProgress, Picture, VectorFormat};
-use guideway::document::Index;
+use guideway::document::{Index, pick_element};
 use guideway::formats::{Progress, ReadOptions, Target, WriteError, read_bytes};
 use guideway::layout::{CompareOptions, Layout, Severity, UserError, changes};
 use guideway::network::{Route, RouteOptions, Router};
 use guideway::scene::density::ToneMap;
 use guideway::scene::{LineRule, Scene, Shading, View};
+use guideway::spline::Point;
 use guideway::{SaveError, write_png_by};
 use serde_json::{Value, json};
 
@@ -74,7 +75,9 @@ impl Session {
 
     /// Extent, counts, levels, vehicle types, columns and formats to save in, as JSON.
     pub fn info(&self) -> String {
-        answers::info(&self.name, &self.layout).to_string()
+        let mut info = guideway::json::info(&self.layout);
+        info["name"] = json!(self.name);
+        info.to_string()
     }
 
     /// The findings about the layout, at most `most` of them, and how many there are, as JSON.
@@ -175,15 +178,9 @@ impl Session {
         let (Some((view, rule)), Some((_, scene))) = (&self.shown, &self.scene) else {
             return Value::Null.to_string();
         };
-        let at = elements::At {
-            scene,
-            index: self.index(),
-            view,
-            rule: *rule,
-            reach_px,
-            max_candidates: MAX_CANDIDATES,
-        };
-        let found = elements::hit(&at, x, y);
+        let at = Point::new(x, y);
+        let place = (&**scene, self.index());
+        let found = pick_element(place, *rule, view, at, reach_px, MAX_CANDIDATES);
         let found = found.map(|element| elements::summary(&self.layout, self.index(), element));
         json!(found).to_string()
     }
@@ -218,7 +215,7 @@ impl Session {
         let ends: RouteEnds = serde_json::from_str(ends)
             .map_err(|error| usage(format!("the ends of the route: {error}")))?;
         let route = self.find_route(&ends)?;
-        Ok(answers::route(&self.layout, &route).to_string())
+        Ok(guideway::json::route(&self.layout, &route).to_string())
     }
 
     /// The changes from this layout to another one, as JSON.

@@ -16,6 +16,7 @@
 //! | [`document`] | a layout under edit: selection, search, undo, journal |
 //! | `script` | edits by a list of steps in JSON, with the feature `script` |
 //! | [`compose`] | the finished picture as PNG or SVG, with backdrop, labels, legend and title |
+//! | `json` | facts and routes for programs in other languages, with the feature `json` |
 //! | [`methods`], [`method`] | the render methods of this build |
 //!
 //! The command `guideway` calls the same functions; it is the module `cli`, with the feature `cli`.
@@ -178,6 +179,8 @@ extern crate self as guideway;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod files;
+#[cfg(feature = "json")]
+pub mod json;
 mod methods;
 #[cfg(feature = "cli")]
 mod out_of_memory;

@@ -2,10 +2,10 @@
 //! that they need.
 
 use std::collections::HashMap;
-use std::iter::Peekable;
+use std::iter::{self, Peekable};
 use std::slice;
 
-use arrow_array::{RecordBatch, RecordBatchReader};
+use arrow_array::{RecordBatch, RecordBatchIterator, RecordBatchReader};
 use arrow_schema::{ArrowError, Schema, SchemaRef};
 use guideway_layout::{Direction, Layout, Level, PathRef, Values};
 use guideway_spline::Point;
@@ -45,6 +45,20 @@ use crate::write_error::WriteProblem;
 pub fn batches(layout: &Layout) -> Result<Batches<'_>, WriteProblem> {
     check_finite(layout)?;
     Ok(Batches::new(layout, precision_within(layout, 0.0)))
+}
+
+/// Returns all [`batches`] of a layout at once, for a reader that outlives the layout.
+///
+/// # Errors
+/// See [`batches`].
+pub fn collected_batches(
+    layout: &Layout,
+) -> Result<impl RecordBatchReader + Send + use<>, WriteProblem> {
+    let mut batches = batches(layout)?;
+    let unwatched = WrittenPaths::unwatched();
+    let all = iter::from_fn(|| batches.next_batch(&unwatched));
+    let all: Vec<_> = all.map(|batch| batch.map(Ok)).collect::<Result<_, _>>()?;
+    Ok(RecordBatchIterator::new(all, batches.schema()))
 }
 
 /// The record batches of a layout, made one by one.

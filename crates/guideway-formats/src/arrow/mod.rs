@@ -73,7 +73,7 @@ mod written_curves;
 
 pub use arrow_array::{RecordBatch, RecordBatchIterator, RecordBatchReader};
 
-pub use self::batches::{Batches, batches};
+pub use self::batches::{Batches, batches, collected_batches};
 pub(crate) use self::read::read;
 pub use self::read_batches::read_batches;
 pub use self::write::ArrowWriter;

@@ -57,7 +57,7 @@ impl Place {
 }
 
 /// Returns `true` if Windows takes a path for a device: `NUL` or `CON` in any folder, or a path
-/// below `\\\\.\\`. It calls them files when asked.
+/// below `\\.\`. It calls them files when asked.
 fn is_device_of_windows(path: &Path) -> bool {
     let names = ["NUL", "CON", "NUL:", "CON:"];
     let name = path.file_name().unwrap_or_default();

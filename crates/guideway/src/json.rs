@@ -1,0 +1,65 @@
+//! A layout and its routes as JSON, for programs in other languages.
+
+use guideway_formats::Target;
+use guideway_layout::Layout;
+use guideway_network::Route;
+use serde_json::{Value, json};
+
+/// Columns by which paths can be colored, beside those of the file.
+const BUILT_IN: [&str; 3] = ["level", "direction", "vehicle_type"];
+
+/// Format, counts, extent, levels, vehicle types, columns, formats to save in.
+pub fn info(layout: &Layout) -> Value {
+    let levels = layout.levels.iter();
+    let levels: Vec<Value> = levels
+        .map(|level| json!({ "id": level.id, "name": level.name_or_id() }))
+        .collect();
+    let own = layout.paths.column_names();
+    let own: Vec<&str> = own.filter(|name| !BUILT_IN.contains(name)).collect();
+    let has = [
+        !layout.levels.is_empty(),
+        true,
+        !layout.paths.vehicle_types().names().is_empty(),
+    ];
+    let built_in = BUILT_IN.iter().zip(has).filter(|(_, has)| *has);
+    let columns = built_in.map(|(name, _)| *name).chain(own);
+    let targets = Target::ALL.iter().map(|target| {
+        let extension = target.extensions().first();
+        json!({ "id": target.id(), "name": target.name(), "extension": extension })
+    });
+    let bounds = layout.paths.hull_bounds();
+    let length_m: f64 = layout.paths.iter().map(|path| path.length_m()).sum();
+    json!({
+        "format": layout.provenance.format,
+        "formatVersion": layout.provenance.format_version,
+        "paths": layout.paths.len(),
+        "nodes": layout.nodes.len(),
+        "stations": layout.stations.len(),
+        "refused": layout.refused.len(),
+        "lengthM": length_m,
+        "bounds": bounds.map(|b| [b.min.x, b.min.y, b.max.x, b.max.y]),
+        "levels": levels,
+        "vehicleTypes": layout.vehicle_type_names(),
+        "columns": columns.collect::<Vec<_>>(),
+        "targets": targets.collect::<Vec<_>>(),
+        "source": Target::of_source(layout).map(Target::id),
+        "isDrawing": layout.is_drawing(),
+    })
+}
+
+/// A route with its steps.
+pub fn route(layout: &Layout, route: &Route) -> Value {
+    let rows = route.rows.iter().map(|row| {
+        json!({
+            "path": layout.paths.id(row.path as usize),
+            "row": row.path,
+            "backward": row.is_backward,
+            "from": layout.nodes.id(row.from),
+            "to": layout.nodes.id(row.to),
+            "lengthM": row.length_m,
+            "speedMS": row.speed_m_s,
+            "endS": row.end_s,
+        })
+    });
+    json!({ "lengthM": route.length_m, "timeS": route.time_s, "rows": rows.collect::<Vec<_>>() })
+}
