@@ -94,6 +94,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("guideway-python", &["guideway"]),
+    ("guideway-c", &["guideway"]),
     (
         "guideway-window",
         &["guideway", "guideway-bench", "guideway-viewer"],
@@ -116,8 +117,8 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("svgtypes", "guideway-formats"),
     (
         "serde_json",
-        "guideway-formats guideway-envelope guideway guideway-tests guideway-tiles guideway-web \
-         guideway-window xtask",
+        "guideway-formats guideway-envelope guideway guideway-c guideway-tests guideway-tiles \
+         guideway-web guideway-window xtask",
     ),
     ("anstream", "guideway"),
     ("clap", "guideway"),

@@ -1,11 +1,12 @@
-//! `cargo xtask dist`: builds a release and packs it.
+//! `cargo xtask dist`: builds a release and packs it: the programs, and the C library.
 
 use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 use xtask::dist::{
-    Compression, archive, checksums, deb, dependencies, notices, release, sbom, stage,
+    Compression, Package, archive, checksums, deb, dependencies, notices, release, release_library,
+    sbom, stage, stage_library, stage_notices,
 };
 
 use crate::step::heading;
@@ -15,8 +16,9 @@ pub(crate) fn run() -> Result<()> {
     let top = std::env::current_dir()?;
     heading("release build");
     let binaries = release(&top)?;
+    let library = release_library(&top)?;
     heading("packages");
-    let dependencies = dependencies(&top)?;
+    let dependencies = dependencies(&top, None)?;
     let own = dependencies.iter().find(|krate| krate.name == "guideway");
     let version = &own.context("the list has the command")?.version;
     let folder = top.join("target/dist/packages");
@@ -27,19 +29,33 @@ pub(crate) fn run() -> Result<()> {
         }
         fs::create_dir_all(fresh)?;
     }
-    let root = work.join("root");
     let notices = notices(&dependencies)?;
-    stage(&top, &binaries, &notices, &root.join("usr"))?;
-    let package = deb(version, &binaries, &root, &folder, Compression::Xz)?;
-    let name = format!("guideway-{version}-{}-linux", std::env::consts::ARCH);
-    fs::rename(root.join("usr"), work.join(&name))?;
-    let archive = archive(&work, &name, &folder)?;
+    // A `.deb` of the files below a folder, and an archive of them under another name.
+    let pack = |package: &Package<'_>, name: &str, stage: &dyn Fn(&Path) -> Result<()>| {
+        let root = work.join("root");
+        stage(&root.join("usr"))?;
+        let package = deb(package, &root, &folder, Compression::Xz)?;
+        let name = format!("{name}-{version}-{}-linux", std::env::consts::ARCH);
+        fs::rename(root.join("usr"), work.join(&name))?;
+        anyhow::Ok([package, archive(&work, &name, &folder)?])
+    };
+    let programs = pack(&Package::programs(version, &binaries), "guideway", &|usr| {
+        stage(&top, &binaries, &notices, usr)
+    })?;
+    let library = pack(
+        &Package::library(version, &library),
+        "libguideway",
+        &|usr| {
+            stage_library(&top, version, &library, usr)?;
+            stage_notices(&top, &notices, &usr.join("share/doc/libguideway-dev"))
+        },
+    )?;
     let bill = folder.join(format!("guideway-{version}.cdx.json"));
     fs::write(
         &bill,
         serde_json::to_string_pretty(&sbom(version, &dependencies))? + "\n",
     )?;
-    let files = [package, archive, bill];
+    let files = [&programs[..], &library, &[bill]].concat();
     checksums(&folder, &files)?;
     for file in &files {
         println!(

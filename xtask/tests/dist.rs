@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use xtask::dist::{
-    Binaries, Compression, archive, checksums, deb, dependencies, notices, sbom, stage,
+    Binaries, Compression, Package, archive, checksums, deb, dependencies, notices, sbom, stage,
 };
 
 fn top() -> PathBuf {
@@ -81,7 +81,8 @@ fn package_installs_runs_and_leaves_nothing_when_removed() {
     ] {
         assert!(staged.iter().any(|name| name == part), "{part}: {staged:?}");
     }
-    let package = deb("1.2.3", &binaries, &root, folder.path(), Compression::Fast).unwrap();
+    let contents = Package::programs("1.2.3", &binaries);
+    let package = deb(&contents, &root, folder.path(), Compression::Fast).unwrap();
 
     // A system of its own, whose database of packages is empty.
     let system = folder.path().join("system");
@@ -138,7 +139,7 @@ fn checksums_fit_and_tell_a_changed_archive() {
 
 #[test]
 fn every_crate_is_in_the_bill_with_its_license() {
-    let all = dependencies(&top()).unwrap();
+    let all = dependencies(&top(), None).unwrap();
     let named = |name: &str| all.iter().any(|krate| krate.name == name);
     assert!(named("eframe") && named("wgpu-core") && named("guideway-formats"));
     assert!(!named("proptest") && !named("syn") && !named("cc"));

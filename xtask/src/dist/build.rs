@@ -6,6 +6,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
+use super::Library;
+
 /// The programs of an installation.
 #[derive(Clone, Debug)]
 pub struct Binaries {
@@ -31,12 +33,31 @@ impl Binaries {
 /// # Errors
 /// When cargo fails.
 pub fn release(top: &Path) -> Result<Binaries> {
-    let target = top.join("target").join("dist");
     let packages = ["--package", "guideway", "--package", "guideway-window"];
+    let features = ["--features", "guideway/gpu,guideway/gl"];
+    let folder = build(top, &[&["build"], &packages[..], &features].concat())?;
+    Ok(Binaries::in_folder(&folder))
+}
+
+/// Builds the C library, optimized.
+///
+/// # Errors
+/// When cargo fails.
+pub fn release_library(top: &Path) -> Result<Library> {
+    let types = ["--crate-type", "cdylib,staticlib"];
+    let folder = build(
+        top,
+        &[&["rustc", "--package", "guideway-c"], &types[..]].concat(),
+    )?;
+    Ok(Library::in_folder(&folder))
+}
+
+/// Runs a task of cargo's and returns the folder of what it built.
+fn build(top: &Path, task: &[&str]) -> Result<PathBuf> {
+    let target = top.join("target").join("dist");
     let built = Command::new(env!("CARGO"))
-        .args(["build", "--release", "--locked"])
-        .args(packages)
-        .args(["--features", "guideway/gpu,guideway/gl"])
+        .args(task)
+        .args(["--release", "--locked"])
         .current_dir(top)
         .env("CARGO_TARGET_DIR", &target)
         .env("RUSTFLAGS", remapped_paths(top)?)
@@ -45,11 +66,14 @@ pub fn release(top: &Path) -> Result<Binaries> {
     if !built.success() {
         bail!("the release build failed: {built}");
     }
-    Ok(Binaries::in_folder(&target.join("release")))
+    Ok(target.join("release"))
 }
 
 /// Compiler flags by which messages of panics name files without the folders of this machine.
-fn remapped_paths(top: &Path) -> Result<String> {
+///
+/// # Errors
+/// When the environment does not say where cargo keeps its sources.
+pub fn remapped_paths(top: &Path) -> Result<String> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".cargo")));
     let home = home.context("neither CARGO_HOME nor HOME is set")?;

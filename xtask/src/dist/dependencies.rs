@@ -34,17 +34,18 @@ impl Dependency {
 }
 
 /// The programs whose crates are listed.
-const ROOTS: [&str; 2] = ["guideway", "guideway-window"];
+const ROOTS: [&str; 3] = ["guideway", "guideway-c", "guideway-window"];
 
-/// Every crate that the programs link on this computer's system, sorted by name and version.
+/// Every crate that the programs link for a target, by default this computer's system, sorted by
+/// name and version.
 ///
 /// # Errors
 /// When cargo fails, or its answer has another form.
-pub fn dependencies(top: &Path) -> Result<Vec<Dependency>> {
-    let host = host()?;
+pub fn dependencies(top: &Path, target: Option<&str>) -> Result<Vec<Dependency>> {
+    let target = target.map_or_else(host, |target| Ok(target.to_owned()))?;
     let listed = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--locked"])
-        .args(["--filter-platform", &host])
+        .args(["--filter-platform", &target])
         .current_dir(top)
         .output()
         .context("cannot start cargo")?;

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `build` | optimized binaries without paths of this machine |
 //! | `dependencies` | the crates in them, from `cargo metadata` |
+//! | `library` | the files of the C library, below a folder |
 //! | `licenses` | the license texts of these crates |
 //! | `sbom` | the crates as a CycloneDX bill of materials |
 //! | `tree` | the files of an installation, below a folder |
@@ -12,14 +13,16 @@
 
 mod build;
 mod dependencies;
+mod library;
 mod licenses;
 mod package;
 mod sbom;
 mod tree;
 
-pub use build::{Binaries, release};
+pub use build::{Binaries, release, release_library, remapped_paths};
 pub use dependencies::{Dependency, dependencies};
+pub use library::{Library, stage_library};
 pub use licenses::notices;
-pub use package::{Compression, archive, checksums, deb};
+pub use package::{Compression, Package, archive, checksums, deb};
 pub use sbom::sbom;
-pub use tree::stage;
+pub use tree::{stage, stage_notices};

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
-use super::Binaries;
+use super::{Binaries, Library};
 
 /// The compression of a package.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,20 +20,68 @@ pub enum Compression {
 }
 
 const MAINTAINER: &str = "Guideway developers <guideway@users.noreply.github.com>";
-/// The window needs a driver, a keyboard map and, without a graphics card, Mesa.
-const RECOMMENDS: &str = "libvulkan1, mesa-vulkan-drivers, libegl1, libxkbcommon-x11-0";
 
-/// Builds `guideway_VERSION_ARCHITECTURE.deb` in `folder` of an installation below `root`/usr.
+/// The content of a Debian package.
+pub struct Package<'a> {
+    name: &'a str,
+    version: &'a str,
+    /// Programs and libraries, which need a version of glibc.
+    binaries: Vec<&'a Path>,
+    recommends: &'a str,
+    section: &'a str,
+    /// One line, then the lines of a paragraph, each after a space.
+    description: &'a str,
+}
+
+impl<'a> Package<'a> {
+    /// The command and the window.
+    pub fn programs(version: &'a str, binaries: &'a Binaries) -> Self {
+        Self {
+            name: "guideway",
+            version,
+            binaries: vec![&binaries.command, &binaries.window],
+            // The window needs a driver, a keyboard map and, without a graphics card, Mesa.
+            recommends: "libvulkan1, mesa-vulkan-drivers, libegl1, libxkbcommon-x11-0",
+            section: "science",
+            description: "path layouts of automated guided vehicles\n \
+                Draws, checks, edits and converts layouts in LIF, VDA 5050, openTCS, DXF,\n \
+                Open-RMF, OpenDRIVE, Lanelet2, GeoJSON, SVG and Arrow, by a command and in a\n \
+                window.",
+        }
+    }
+
+    /// The C library with its header.
+    pub fn library(version: &'a str, library: &'a Library) -> Self {
+        Self {
+            name: "libguideway-dev",
+            version,
+            binaries: vec![&library.shared],
+            recommends: "pkg-config",
+            section: "libdevel",
+            description: "path layouts of automated guided vehicles, for C and C++\n \
+                Reads, checks, draws and converts layouts by a library with a header in C.",
+        }
+    }
+}
+
+/// Builds `NAME_VERSION_ARCHITECTURE.deb` in `folder` of an installation below `root`/usr.
 ///
 /// # Errors
 /// When `dpkg` is missing or fails.
 pub fn deb(
-    version: &str,
-    binaries: &Binaries,
+    package: &Package<'_>,
     root: &Path,
     folder: &Path,
     compression: Compression,
 ) -> Result<PathBuf> {
+    let Package {
+        name,
+        version,
+        binaries,
+        recommends,
+        section,
+        description,
+    } = package;
     let architecture = said(Command::new("dpkg").arg("--print-architecture"))?;
     let size = said(
         Command::new("du")
@@ -41,29 +89,28 @@ pub fn deb(
             .arg(root),
     )?;
     let kib = size.split_whitespace().next().unwrap_or("0");
-    let [command, window] = [&binaries.command, &binaries.window].map(fs::read);
-    let glibc = newest_glibc(&command?).max(newest_glibc(&window?));
+    let mut glibc = None;
+    for binary in binaries {
+        glibc = glibc.max(newest_glibc(&fs::read(binary)?));
+    }
     let (major, minor) = glibc.context("the programs name no version of glibc")?;
     let control = format!(
-        "Package: guideway\n\
+        "Package: {name}\n\
          Version: {version}\n\
          Architecture: {architecture}\n\
          Maintainer: {MAINTAINER}\n\
          Installed-Size: {kib}\n\
          Depends: libc6 (>= {major}.{minor}), libgcc-s1\n\
-         Recommends: {RECOMMENDS}\n\
-         Section: science\n\
+         Recommends: {recommends}\n\
+         Section: {section}\n\
          Priority: optional\n\
          Homepage: https://github.com/guideway/guideway\n\
-         Description: path layouts of automated guided vehicles\n \
-         Draws, checks, edits and converts layouts in LIF, VDA 5050, openTCS, DXF,\n \
-         Open-RMF, OpenDRIVE, Lanelet2, GeoJSON, SVG and Arrow, by a command and in a\n \
-         window.\n"
+         Description: {description}\n"
     );
     let about = root.join("DEBIAN");
     fs::create_dir_all(&about)?;
     fs::write(about.join("control"), control)?;
-    let file = folder.join(format!("guideway_{version}_{architecture}.deb"));
+    let file = folder.join(format!("{name}_{version}_{architecture}.deb"));
     let options: &[&str] = match compression {
         Compression::Xz => &["-Zxz"],
         Compression::Fast => &["-Zgzip", "-z1"],

@@ -61,7 +61,14 @@ pub fn stage(top: &Path, binaries: &Binaries, notices: &str, prefix: &Path) -> R
             &fs::read(top.join("packaging").join(file))?,
         )?;
     }
-    let doc = share.join("doc/guideway");
+    stage_notices(top, notices, &share.join("doc/guideway"))
+}
+
+/// Writes licenses and changes to the folder of a package's documentation.
+///
+/// # Errors
+/// When a file cannot be read or written.
+pub fn stage_notices(top: &Path, notices: &str, doc: &Path) -> Result<()> {
     save(&doc.join("copyright"), copyright(top)?.as_bytes())?;
     for (name, text) in [
         ("changelog", fs::read(top.join("CHANGELOG.md"))?),
