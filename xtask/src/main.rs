@@ -16,7 +16,7 @@ use anyhow::{Context, Result, bail};
 use xtask::module_graph::workspace_circles;
 use xtask::style::check_repository;
 
-use prerequisites::{CARGO_DENY, CARGO_FUZZ, MDBOOK};
+use prerequisites::{CARGO_DENY, CARGO_FUZZ, CBINDGEN, MDBOOK};
 use step::{STARTED, build_with_workspace, cargo, elapsed_s, heading};
 
 const HELP: &str = "\
@@ -29,7 +29,9 @@ cargo xtask fuzz [MINUTES [TARGET...]]
 cargo xtask sanitize    reading of Arrow files, whose decoder has code in C, under AddressSanitizer
 cargo xtask conformance [--quick] [FORMAT...]
                         what is read and written, compared with other implementations; a table
-cargo xtask dist        packages in target/dist/packages: .deb, .tar.xz, checksums, SBOM
+cargo xtask dist        packages in target/dist/packages: .deb and .tar.xz of the programs and of
+                        the C library, checksums, SBOM
+cargo xtask header      writes the header of the C interface
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
 cargo xtask web [--test | --check]
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         ("sanitize", []) => sanitize(),
         ("soak", rest) => soak(rest),
         ("dist", []) => pack::run(),
+        ("header", []) => header(),
         ("web", rest) => web::run(rest),
         ("style", []) => style(""),
         ("style", [word]) => style(word),
@@ -166,6 +169,15 @@ fn single_formats() -> Result<()> {
         alone("guideway-formats", format)?;
     }
     alone("guideway", "lif")
+}
+
+/// Writes the header of the C interface.
+fn header() -> Result<()> {
+    let cbindgen = CBINDGEN.ensure()?;
+    step::command(&cbindgen)
+        .args(["--quiet", "crates/guideway-c", "--output"])
+        .args(["crates/guideway-c/include/guideway.h"])
+        .run()
 }
 
 /// Workspaces with a lock file of their own.

@@ -33,6 +33,11 @@ pub(crate) const CARGO_DENY: Tool = Tool {
     version: "0.20.2",
     features: &[],
 };
+pub(crate) const CBINDGEN: Tool = Tool {
+    name: "cbindgen",
+    version: "0.29.4",
+    features: &[],
+};
 pub(crate) const CARGO_FUZZ: Tool = Tool {
     name: "cargo-fuzz",
     version: "0.13.1",
