@@ -5,8 +5,9 @@
 // import: composite/loop_count.wgsl
 // import: shared/tile.wgsl
 
-// True where the upper and the lower end of a capsule are ends of a path.
-var<workgroup> path_ends: array<vec2<bool>, BATCH_LINES>;
+// Bit 0: the upper end of a capsule is an end of a path. Bit 1: so is the lower one. Words, because
+// booleans of several threads overwrite each other in the workgroup memory of an NVIDIA H200.
+var<workgroup> path_ends: array<u32, BATCH_LINES>;
 // Red, green, blue and opacity sums per pixel; or the samples of strokes, and those of ends.
 var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
 
@@ -47,21 +48,22 @@ fn count_end(row: u32, center: vec2f, radius: f32) {
 }
 
 // Counts the samples of a row around the ends of a capsule that are ends of a path.
-fn count_ends(row: u32, capsule: Capsule, ends: vec2<bool>) {
-    if ends.x {
+fn count_ends(row: u32, capsule: Capsule, ends: u32) {
+    if (ends & 1u) != 0u {
         count_end(row, capsule.upper, capsule.radius);
     }
-    if ends.y {
+    if (ends & 2u) != 0u {
         count_end(row, capsule.upper + capsule.along, capsule.radius);
     }
 }
 
-// Returns whether the upper and the lower end of the capsule of a line are ends of a path.
-fn path_ends_of_capsule(index: u32, capsule: Capsule) -> vec2<bool> {
+// Returns the word of `path_ends` for the capsule of a line.
+fn path_ends_of_capsule(index: u32, capsule: Capsule) -> u32 {
     let words = words_of_line(index);
     let line = line_of(words);
     let ends = path_ends_of(words);
-    return select(ends.yx, ends, dot(line.zw - line.xy, capsule.along) >= 0.0);
+    let points_down = dot(line.zw - line.xy, capsule.along) >= 0.0;
+    return select((ends >> 1u) | ((ends & 1u) << 1u), ends, points_down);
 }
 
 // Returns the number of paths times that of samples. An end may hold a sample more than its stroke,

@@ -25,9 +25,10 @@ fn packed_line(line: vec4f, path_ends: vec2<bool>) -> vec3u {
     return bits.xyz | ends | ((vec3u(bits.w) << vec3u(24u, 16u, 8u)) & vec3u(0xff000000u));
 }
 
-// Returns whether a path starts at the first point of a line, and whether it ends at the second.
-fn path_ends_of(words: vec3u) -> vec2<bool> {
-    return vec2<bool>((words.yz >> vec2u(PATH_END_BIT)) & vec2u(1u));
+// Bit 0: a path starts at the first point of a line. Bit 1: it ends at the second.
+fn path_ends_of(words: vec3u) -> u32 {
+    let ends = (words.yz >> vec2u(PATH_END_BIT)) & vec2u(1u);
+    return ends.x | (ends.y << 1u);
 }
 
 // Returns a line in picture pixels. One fma, because a compiler could round separate operations
