@@ -5,11 +5,13 @@
 //! | `buffers` | holds control points as `f32` or `f64`, and finds ranges in lists of ends |
 //! | `hulls` | holds the bounding box of the control points of each path |
 //! | `store` | [`Geometry`]: holds runs and paths, reads them, appends paths |
+//! | `parts` | visits disjoint parts of a buffer by all threads |
 //! | `transform` | maps control points; bounds the result and its rounding error |
 //! | `replace` | copies paths, and replaces their curves |
 
 mod buffers;
 mod hulls;
+mod parts;
 mod replace;
 mod store;
 #[cfg(test)]

@@ -7,9 +7,13 @@ use guideway_spline::mem::{CHUNK_LEN, prefetch_ahead};
 use rayon::prelude::*;
 
 use super::buffers::{Points, consecutive, elements_of, end_index};
+use super::parts::for_each_part;
 use super::store::Geometry;
 use crate::RunPoints;
 use crate::run_points::POINTS_PER_TASK;
+
+/// Pairs of consecutive paths that one task compares.
+const TASK_PAIRS: usize = 1 << 12;
 
 impl Geometry {
     /// A copy of some paths, in the given order. Fastest for rows in order.
@@ -77,14 +81,9 @@ impl Geometry {
             (rows, from)
         });
         let pairs: Vec<_> = pairs.collect();
-        if pairs
-            .iter()
-            .all(|(rows, from)| self.has_run_lengths_of(rows, with, from))
-        {
-            for (rows, from) in pairs {
-                self.copy_points_from(&rows, with, &from);
-            }
-            return;
+        let tasks = pairs.par_iter().with_min_len(TASK_PAIRS);
+        if tasks.all(|(rows, from)| self.has_run_lengths_of(rows, with, from)) {
+            return self.copy_points(&pairs, with);
         }
         if let [path] = *paths {
             return self.splice(path as usize, with);
@@ -119,19 +118,18 @@ impl Geometry {
         has_run_counts && has_lengths_of((&self.run_ends, &own), (&with.run_ends, &other))
     }
 
-    /// Overwrites the points of `paths` by those of `others`, whose runs have the same lengths.
-    fn copy_points_from(&mut self, paths: &Range<usize>, with: &Self, others: &Range<usize>) {
-        let to = self.points_of(&self.runs_of(paths));
-        let from = with.points_of(&with.runs_of(others));
+    /// Overwrites the points of paths by those of others, whose runs have the same lengths.
+    fn copy_points(&mut self, pairs: &[(Range<usize>, Range<usize>)], with: &Self) {
+        let parts = pairs.iter().map(|(paths, others)| {
+            let to = self.points_of(&self.runs_of(paths));
+            (to, with.points_of(&with.runs_of(others)))
+        });
+        let parts: Vec<_> = parts.collect();
         match (&mut self.points, &with.points) {
-            (Points::F64(to_all), Points::F64(all)) => copy(&mut to_all[to], &all[from], |p| p),
-            (Points::F32(to_all), Points::F32(all)) => copy(&mut to_all[to], &all[from], |p| p),
-            (Points::F64(to_all), Points::F32(all)) => {
-                copy(&mut to_all[to], &all[from], Point::to_f64);
-            }
-            (Points::F32(to_all), Points::F64(all)) => {
-                copy(&mut to_all[to], &all[from], Point::to_f32);
-            }
+            (Points::F64(to), Points::F64(from)) => copy_parts(to, from, &parts, |p| p),
+            (Points::F32(to), Points::F32(from)) => copy_parts(to, from, &parts, |p| p),
+            (Points::F64(to), Points::F32(from)) => copy_parts(to, from, &parts, Point::to_f64),
+            (Points::F32(to), Points::F64(from)) => copy_parts(to, from, &parts, Point::to_f32),
         }
     }
 
@@ -169,6 +167,18 @@ impl Geometry {
         }
         self.run_ends.splice(runs, new_ends);
     }
+}
+
+/// Copies converted points from parts of a slice to parts of another one.
+fn copy_parts<A: Copy + Sync, B: Send>(
+    to: &mut [B],
+    from: &[A],
+    parts: &[(Range<usize>, Range<usize>)],
+    convert: impl Fn(A) -> B + Sync,
+) {
+    for_each_part(to, parts, &|to, range| {
+        copy(to, &from[range.clone()], &convert)
+    });
 }
 
 /// Copies converted points to a slice of the same length, on all threads if there are many.

@@ -5,6 +5,7 @@ use guideway_spline::{Affine, Bounds, Point};
 use rayon::prelude::*;
 
 use super::buffers::{Points, consecutive};
+use super::parts::for_each_part;
 use super::store::Geometry;
 use crate::RunPoints;
 use crate::run_points::POINTS_PER_TASK;
@@ -16,14 +17,15 @@ impl Geometry {
     /// When a path is not below [`Self::path_count`].
     pub fn transform(&mut self, paths: impl IntoIterator<Item = usize>, by: Affine) {
         self.hulls.take();
-        for rows in consecutive(paths) {
-            let range = self.points_of(&self.runs_of(&rows));
-            match &mut self.points {
-                Points::F64(points) => map_points(&mut points[range], |p| by.apply(p)),
-                Points::F32(points) => {
-                    map_points(&mut points[range], |p| by.apply(p.to_f64()).to_f32());
-                }
-            }
+        let parts = consecutive(paths).map(|rows| (self.points_of(&self.runs_of(&rows)), ()));
+        let parts: Vec<_> = parts.collect();
+        match &mut self.points {
+            Points::F64(points) => for_each_part(points, &parts, &|points, ()| {
+                map_points(points, |p| by.apply(p));
+            }),
+            Points::F32(points) => for_each_part(points, &parts, &|points, ()| {
+                map_points(points, |p| by.apply(p.to_f64()).to_f32());
+            }),
         }
     }
 

@@ -115,6 +115,9 @@ impl Paths {
     /// among them that are kept as written, by their indices.
     pub fn replace_curves(&mut self, paths: &[u32], with: &Geometry, written: &WrittenCurves) {
         self.geometry.replace_all(paths, with);
+        if self.written_curves.is_empty() && written.is_empty() {
+            return;
+        }
         for (i, &path) in paths.iter().enumerate() {
             self.written_curves.set(path as usize, written.shared(i));
         }
