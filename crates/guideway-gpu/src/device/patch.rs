@@ -7,7 +7,7 @@ use wgpu::BufferUsages;
 
 use super::error::DeviceError;
 use super::gpu::Gpu;
-use super::kernel::{Kernel, Source};
+use super::kernel::{Bindings, Kernel, Source};
 use super::memory::{DeviceBuffer, Memory};
 use super::runner::{Dispatch, Runner};
 
@@ -43,12 +43,34 @@ struct Run {
 impl Patch {
     /// Sets the value at a word index of the buffer.
     pub(crate) fn set<T: bytemuck::NoUninit>(&mut self, first_word: usize, value: &T) {
-        let words = bytemuck::cast_slice(std::slice::from_ref(value));
+        self.set_all(first_word, std::slice::from_ref(value));
+    }
+
+    /// Sets adjacent values from a word index of the buffer on.
+    pub(crate) fn set_all<T: bytemuck::NoUninit>(&mut self, first_word: usize, values: &[T]) {
+        let words = bytemuck::cast_slice(values);
         for (part, at) in words
             .chunks(MAX_RUN_WORDS)
             .zip((0..).step_by(MAX_RUN_WORDS))
         {
             self.set_words(first_word + at, part);
+        }
+    }
+
+    /// As [`Self::set_all`], of computed words.
+    pub(crate) fn set_each(&mut self, first_word: usize, words: impl Iterator<Item = u32>) {
+        let mut part = [0; MAX_RUN_WORDS];
+        let (mut len, mut target) = (0, first_word);
+        for word in words {
+            part[len] = word;
+            len += 1;
+            if len == MAX_RUN_WORDS {
+                self.set_words(target, &part);
+                (len, target) = (0, target + len);
+            }
+        }
+        if len > 0 {
+            self.set_words(target, &part[..len]);
         }
     }
 
@@ -98,40 +120,76 @@ impl Patcher {
         })
     }
 
-    /// Applies a patch to a buffer, before the next submission.
+    /// Applies patches to a buffer, before the next submission, in as few batches as possible.
     pub(crate) fn apply(
         &self,
         gpu: &Gpu,
         runner: &Runner,
-        patch: &Patch,
+        patches: &[&Patch],
         target: &DeviceBuffer,
     ) -> Result<(), DeviceError> {
-        let what = "changes of the scene";
         let buffers = [&self.batch, &self.runs, &self.words, target];
         let bindings = self.kernel.bind(gpu, &buffers)?;
-        let mut runs = patch.runs.as_slice();
-        while let Some(first) = runs.first() {
-            let fits = |run: &&Run| {
-                let words = (run.source + run.words - first.source) as usize;
-                words <= BATCH_WORDS
-            };
-            let count = runs.iter().take(BATCH_RUNS).take_while(fits).count();
-            let (sent, rest) = runs.split_at(count);
-            let last = sent[count - 1];
-            let words = first.source as usize..(last.source + last.words) as usize;
-            let batch = [count as u32, first.source, 0, 0];
-            runner.write(what, &self.batch, &batch)?;
-            runner.write_at(what, &self.runs, 0, sent)?;
-            runner.write_at(what, &self.words, 0, &patch.words[words])?;
-            let dispatch = Dispatch {
-                kernel: &self.kernel,
-                bindings: &bindings,
-                workgroups: (count as u32).div_ceil(THREADS),
-            };
-            runner.start(what, &[dispatch])?;
-            runs = rest;
+        let mut batch = Batch::default();
+        for patch in patches {
+            let mut runs = patch.runs.as_slice();
+            while !runs.is_empty() {
+                runs = batch.add(runs, &patch.words);
+                if !runs.is_empty() {
+                    self.send(runner, &bindings, std::mem::take(&mut batch))?;
+                }
+            }
         }
-        Ok(())
+        self.send(runner, &bindings, batch)
+    }
+
+    fn send(&self, runner: &Runner, bindings: &Bindings, batch: Batch) -> Result<(), DeviceError> {
+        let what = "changes of the scene";
+        if batch.runs.is_empty() {
+            return Ok(());
+        }
+        let count = batch.runs.len() as u32;
+        runner.write(what, &self.batch, &[count, 0, 0, 0])?;
+        runner.write_at(what, &self.runs, 0, &batch.runs)?;
+        runner.write_at(what, &self.words, 0, &batch.words)?;
+        let dispatch = Dispatch {
+            kernel: &self.kernel,
+            bindings,
+            workgroups: count.div_ceil(THREADS),
+        };
+        runner.start(what, &[dispatch])
+    }
+}
+
+/// Runs of one submission, and their words.
+#[derive(Default)]
+struct Batch {
+    runs: Vec<Run>,
+    words: Vec<u32>,
+}
+
+impl Batch {
+    /// Adds as many runs of a patch with these words as there is room for. Returns the others.
+    fn add<'a>(&mut self, runs: &'a [Run], words: &[u32]) -> &'a [Run] {
+        let Some(first) = runs.first() else {
+            return runs;
+        };
+        let end = |run: &Run| (run.source + run.words) as usize;
+        let start = first.source as usize;
+        let fits = |run: &&Run| end(run) - start <= BATCH_WORDS - self.words.len();
+        let room = BATCH_RUNS - self.runs.len();
+        let count = runs.iter().take(room).take_while(fits).count();
+        let (added, others) = runs.split_at(count);
+        let Some(last) = added.last() else {
+            return runs;
+        };
+        let moved = added.iter().map(|run| Run {
+            source: run.source - first.source + self.words.len() as u32,
+            ..*run
+        });
+        self.runs.extend(moved);
+        self.words.extend_from_slice(&words[start..end(last)]);
+        others
     }
 }
 
@@ -158,5 +216,29 @@ mod tests {
             .map(|r| (r.target_word, r.words))
             .collect();
         assert_eq!(runs, [(0, 64), (64, 36), (200, 1)]);
+    }
+
+    #[test]
+    fn patches_share_a_batch_until_it_is_full() {
+        let patch = |words: std::ops::Range<usize>| {
+            let mut patch = Patch::default();
+            words.for_each(|word| patch.set(word, &(word as u32)));
+            patch
+        };
+        let (small, large) = (patch(3..5), patch(0..BATCH_WORDS));
+        let mut batch = Batch::default();
+        assert!(batch.add(&small.runs, &small.words).is_empty());
+        let others = batch.add(&large.runs, &large.words);
+        // Two words of the last run have no room.
+        assert_eq!(others.len(), 1);
+        let second = Run {
+            target_word: 0,
+            source: 2,
+            words: 64,
+        };
+        assert_eq!(batch.runs[1], second);
+        let mut next = Batch::default();
+        assert!(next.add(others, &large.words).is_empty());
+        assert_eq!((next.runs[0].source, next.words.len()), (0, 64));
     }
 }

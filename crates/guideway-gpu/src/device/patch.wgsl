@@ -6,9 +6,6 @@ override THREADS: u32;
 
 struct Batch {
     runs: u32,
-    // Index of the first bound word among the words of all batches.
-    first_source: u32,
-    padding: vec2u,
 }
 
 struct Run {
@@ -34,6 +31,6 @@ fn main(
     }
     let run = runs[index];
     for (var i = 0u; i < run.words; i++) {
-        target_words[run.target_word + i] = words[run.source - batch.first_source + i];
+        target_words[run.target_word + i] = words[run.source + i];
     }
 }

@@ -18,6 +18,9 @@ use crate::table::Table;
 /// Color of walls and doors: a contrast of 3:1 on white paper, and 5:1 on dark one.
 const STRUCTURE: Rgba = Rgba::opaque(144, 144, 144);
 
+/// Rows of a task.
+const TASK_ROWS: usize = 1 << 14;
+
 /// Colors and visible level of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct SceneOptions {
@@ -281,9 +284,11 @@ impl Scene {
 
     /// The color shared by all shown paths, if there is one; black without paths.
     pub fn common_color(&self) -> Option<Rgba> {
-        let mut colors = self.draw_order.iter().map(|&path| self.color(path));
-        let first = colors.next().unwrap_or(Rgba::BLACK);
-        let is_common = matches!(self.colors, Colors::One(_)) || colors.all(|c| c == first);
+        let first = self.draw_order.first();
+        let first = first.map_or(Rgba::BLACK, |&path| self.color(path));
+        let paths = self.draw_order.par_iter().with_min_len(TASK_ROWS);
+        let is_common =
+            matches!(self.colors, Colors::One(_)) || paths.all(|&path| self.color(path) == first);
         is_common.then_some(first)
     }
 
@@ -303,7 +308,10 @@ impl Scene {
     pub fn is_opaque(&self) -> bool {
         match &self.colors {
             Colors::One(color) => color.is_opaque(),
-            Colors::Each(colors) => colors.iter().all(|c| c.is_opaque()),
+            Colors::Each(colors) => {
+                let colors = colors.par_iter().with_min_len(TASK_ROWS);
+                colors.all(|c| c.is_opaque())
+            }
         }
     }
 
@@ -344,8 +352,9 @@ impl Scene {
 
     /// Rebuilds the draw order and counts; call after rows or states change.
     pub(crate) fn rebuild_order(&mut self) {
+        let states = self.states.par_iter().with_min_len(TASK_ROWS);
         let is_removed = |state: &&PathState| **state == PathState::Removed;
-        self.removed_count = self.states.iter().filter(is_removed).count();
+        self.removed_count = states.filter(is_removed).count();
         self.draw_order = draw_order(&self.layout, &self.states);
         self.invalidate_bounds();
     }
@@ -365,10 +374,14 @@ fn states(layout: &Layout, level: Option<u32>) -> Vec<PathState> {
 
 fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
     let rows = 0..layout.paths.len() as u32;
-    let mut order: Vec<u32> = rows.into_par_iter().collect();
-    if !states.is_empty() {
-        order.retain(|&path| states[path as usize] == PathState::Shown);
-    }
+    let mut order: Vec<u32> = match states.is_empty() {
+        true => rows.into_par_iter().collect(),
+        false => {
+            let tasks = rows.into_par_iter().with_min_len(TASK_ROWS);
+            let is_shown = |path: &u32| states[*path as usize] == PathState::Shown;
+            tasks.filter(is_shown).collect()
+        }
+    };
     if let Some(rank) = layout.paths.rank() {
         order.sort_by_key(|&path| rank[path as usize]);
     }

@@ -1,29 +1,30 @@
 //! Applies an edit to the scene and its buffers: in place where strokes keep their size and place,
 //! otherwise in clusters appended to the end.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use guideway_layout::Layout;
 use guideway_scene::{Edit, PathState, RenderError};
 
+use super::bulk_edit::{self, EditedScene};
 use super::cluster::ClusterOrigin;
 use super::edit_patches::{EditPatches, Target};
-use super::pack::{Packed, path_style};
+use super::pack::Packed;
 use super::path_parts::PathPart;
 use super::path_strokes::{PathStrokes, cluster_of, stroke_capacity};
 use super::scene_buffers::SceneBuffers;
+use super::style_changes::StyleChanges;
 use super::uploaded_scene::UploadedScene;
-use crate::device::Patch;
 use crate::tiles::device_context::DeviceContext;
-use crate::tiles::layouts::{PathStyle, PointFormat};
+use crate::tiles::layouts::PointFormat;
 use guideway_scene::cluster::DirtyClusters;
 
-const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
 /// Unused points from which on the scene is packed again: this many, or a quarter of all points.
 const MAX_UNUSED_POINTS: usize = 1 << 16;
 
-/// Changed paths from which on the scene is packed again, by all threads: this many, and this part
-/// of all strokes.
+/// Paths with curves in other places from which on the scene is packed again: this many, and this
+/// part of all strokes.
 const MIN_PACKED_PATHS: usize = 1 << 16;
 const PACKED_PART: usize = 4;
 
@@ -73,10 +74,6 @@ pub(crate) fn apply(
         effect.changes_appearance =
             matches!(edit, Edit::Restyle(_)) || uploaded.facts.appearance() != before;
     }
-    let strokes = uploaded.stroke_count() as usize;
-    if are_new && rows.len() >= MIN_PACKED_PATHS.max(strokes / PACKED_PART) {
-        return Ok(SceneBufferEdit::NeedsUpload);
-    }
     let has_ranks =
         |buffers: &SceneBuffers| rows.iter().all(|&row| buffers.ranks.rank(row).is_some());
     if !uploaded.buffers.as_ref().is_some_and(has_ranks) {
@@ -112,40 +109,29 @@ fn write_styles(
     let Some(buffers) = &mut uploaded.buffers else {
         return Ok(());
     };
-    let needed = if uploaded.facts.is_plain {
-        1
-    } else {
-        buffers.ranks.count(scene)
-    };
-    let needed_bytes = needed as u64 * size_of::<PathStyle>() as u64;
-    if needed == 1 || needed_bytes > buffers.styles.bytes() {
+    let (count, of_all) = (buffers.style_count as usize, buffers.ranks.count(scene));
+    // The styles of all paths stay when the paths look alike again: nothing reads them then.
+    let uploads_all = count != of_all || of_all == 1;
+    if uploads_all {
         effect.moved_bytes += buffers.upload_styles(&device.gpu, &mut device.memory, scene)?;
         uploaded.facts.styles = buffers.style_count;
         effect.replaces_buffers = true;
-        return Ok(());
     }
-    let mut patch = Patch::default();
-    let mut patches = EditPatches::default();
     let path_strokes = uploaded
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
-    for &row in rows {
-        let Some(rank) = buffers.ranks.rank(row) else {
-            continue;
-        };
-        let style = path_style(scene, row);
-        patch.set(rank as usize * STYLE_WORDS, &style);
-        for &stroke in path_strokes.strokes(row) {
-            let cluster = cluster_of(buffers, stroke);
+    let changed = StyleChanges::of_all(scene, buffers, path_strokes, rows);
+    let mut patches = EditPatches::default();
+    for changed in changed {
+        if !uploads_all {
+            patches.add_finished(Target::Styles, changed.patch);
+        }
+        for (cluster, width_m) in changed.wider {
             let widest_m = &mut buffers.cluster_list[cluster].widest_m;
-            if style.width_m > *widest_m {
-                *widest_m = style.width_m;
-                patches.clusters.add(cluster);
-            }
+            *widest_m = widest_m.max(width_m);
+            patches.clusters.add(cluster);
         }
     }
-    effect.moved_bytes += patch.bytes();
-    patches.other.push((Target::Styles, patch));
     send(uploaded, device, patches, Vec::new(), effect)
 }
 
@@ -165,10 +151,25 @@ fn write_curves(
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
     let mut patches = EditPatches::default();
+    let mut rows = Cow::Borrowed(rows);
+    if rows.len() >= bulk_edit::MIN_PATHS {
+        let (several, hidden) = (&uploaded.multi_stroke_paths, &uploaded.hidden_edits);
+        let edited = EditedScene {
+            scene,
+            path_strokes,
+            is_special: &|row| several.contains(&row) || hidden.contains(&row),
+            are_new,
+        };
+        rows = bulk_edit::rewrite(&edited, buffers, &rows, &mut patches).into();
+        let most = MIN_PACKED_PATHS.max(buffers.stroke_list.len() / PACKED_PART);
+        if are_new && rows.len() >= most {
+            return Ok(false);
+        }
+    }
     let mut moved_parts = Vec::new();
     let mut parts = Vec::new();
     let mut scratch = Vec::new();
-    for &row in rows {
+    for &row in rows.iter() {
         parts.clear();
         if scene.state(row) == PathState::Shown
             && let Some(rank) = buffers.ranks.rank(row)

@@ -10,7 +10,7 @@ use crate::tiles::device_context::{DeviceContext, device_error};
 use crate::tiles::layouts::{Cluster, Stroke};
 use guideway_scene::cluster::DirtyClusters;
 
-const STROKE_WORDS: usize = size_of::<Stroke>() / 4;
+pub(crate) const STROKE_WORDS: usize = size_of::<Stroke>() / 4;
 const CLUSTER_WORDS: usize = size_of::<Cluster>() / 4;
 
 /// A buffer of a scene.
@@ -35,8 +35,7 @@ pub(crate) struct EditPatches {
     pub(crate) clusters: DirtyClusters,
     /// Clusters with changed curves.
     pub(crate) dirty: DirtyClusters,
-    /// Finished patches.
-    pub(crate) other: Vec<(Target, Patch)>,
+    finished: BTreeMap<Target, Vec<Patch>>,
 }
 
 impl EditPatches {
@@ -54,8 +53,13 @@ impl EditPatches {
         }
     }
 
-    /// Sends all patches, but for strokes and clusters if these were uploaded anew. Returns the
-    /// bytes sent, without those of `other`.
+    /// Adds a patch of a buffer that is complete.
+    pub(crate) fn add_finished(&mut self, target: Target, patch: Patch) {
+        self.finished.entry(target).or_default().push(patch);
+    }
+
+    /// Sends all patches, but for the lists of strokes and clusters if these were uploaded anew.
+    /// Returns the bytes sent.
     pub(crate) fn send(
         &self,
         buffers: &SceneBuffers,
@@ -73,18 +77,25 @@ impl EditPatches {
                 clusters.set(cluster * CLUSTER_WORDS, &buffers.cluster_list[cluster]);
             }
         }
-        let mut patches = vec![(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
-        let points = self.points.iter();
-        patches.extend(points.map(|(&target, patch)| (target, patch)));
-        let bytes = patches.iter().map(|(_, patch)| patch.bytes()).sum();
-        patches.extend(self.other.iter().map(|(target, patch)| (*target, patch)));
+        let lists = [(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
+        let mut patches = BTreeMap::<_, Vec<&Patch>>::new();
+        for (target, patch) in lists
+            .into_iter()
+            .chain(self.points.iter().map(|(t, p)| (*t, p)))
+        {
+            patches.entry(target).or_default().push(patch);
+        }
+        for (target, finished) in &self.finished {
+            patches.entry(*target).or_default().extend(finished);
+        }
+        let bytes = patches.values().flatten().map(|patch| patch.bytes()).sum();
         let patcher = match patcher {
             Some(patcher) => patcher,
             none => none.insert(Patcher::new(&device.gpu, &mut device.memory)?),
         };
-        for (target, patch) in patches {
+        for (target, patches) in patches {
             if let Some(buffer) = target.buffer(buffers) {
-                let sent = patcher.apply(&device.gpu, &device.runner, patch, buffer);
+                let sent = patcher.apply(&device.gpu, &device.runner, &patches, buffer);
                 sent.map_err(device_error)?;
             }
         }

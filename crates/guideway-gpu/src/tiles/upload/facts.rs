@@ -1,8 +1,12 @@
 //! Properties of a scene that the host needs for every frame.
 
 use guideway_scene::Scene;
+use rayon::prelude::*;
 
 use crate::tiles::paint_mode::PaintMode;
+
+/// Paths of a task.
+const TASK_PATHS: usize = 1 << 14;
 
 /// Properties of a scene and of its buffers.
 #[derive(Clone, Copy)]
@@ -28,7 +32,7 @@ pub(crate) struct SceneFacts {
 impl SceneFacts {
     /// Facts of a scene without buffers.
     pub(crate) fn of(scene: &Scene) -> Self {
-        let drawn = scene.draw_order().iter();
+        let drawn = scene.draw_order().par_iter().with_min_len(TASK_PATHS);
         let widths = drawn.filter_map(|&path| scene.width_m(path));
         Self {
             clusters: 0,
@@ -36,7 +40,7 @@ impl SceneFacts {
             reach_m: 0.0,
             greatest_step_m: 0.0,
             map: [[1.0, 0.0], [0.0, 1.0]],
-            widest_m: widths.reduce(f32::max),
+            widest_m: widths.reduce_with(f32::max),
             is_plain: is_plain(scene),
             paint: PaintMode::of(scene),
         }
@@ -56,6 +60,6 @@ impl SceneFacts {
 
 /// Returns `true` if all paths have one color, and none a width of its own.
 pub(crate) fn is_plain(scene: &Scene) -> bool {
-    let mut widths = scene.draw_order().iter().map(|&path| scene.width_m(path));
-    scene.common_color().is_some() && widths.all(|width| width.is_none())
+    let paths = scene.draw_order().par_iter().with_min_len(TASK_PATHS);
+    scene.common_color().is_some() && paths.all(|&path| scene.width_m(path).is_none())
 }

@@ -12,7 +12,9 @@
 //! | `near_upload` | uploads exact points of near clusters |
 //! | `shown_gesture`, `gesture` | shows the paths of a gesture by mapping their clusters |
 //! | `edit`, `edit_patches` | applies an edit; `dirty_clusters` are the clusters it changes |
+//! | `bulk_edit`, `style_changes` | the changes of many paths, by all threads |
 
+mod bulk_edit;
 pub(crate) mod cluster;
 pub(crate) mod draw_ranks;
 pub(crate) mod edit;
@@ -27,4 +29,5 @@ pub(crate) mod path_strokes;
 pub(crate) mod point_buffer;
 pub(crate) mod scene_buffers;
 pub(crate) mod shown_gesture;
+mod style_changes;
 pub(crate) mod uploaded_scene;

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::pack::max_move_m;
 use super::scene_buffers::SceneBuffers;
+use crate::tiles::constants::CLUSTER_STROKES;
 
 const NO_STROKE: u32 = u32::MAX;
 
@@ -66,6 +67,12 @@ impl PathStrokes {
         }
     }
 
+    /// The stroke of a row that has exactly one.
+    pub(crate) fn only_stroke(&self, row: u32) -> Option<u32> {
+        let single = self.single.get(row as usize).copied();
+        single.filter(|&single| single != NO_STROKE && !self.several.contains_key(&row))
+    }
+
     /// Removes the strokes of a row. Their points become unused.
     pub(crate) fn remove(&mut self, buffers: &SceneBuffers, row: u32) {
         let capacities = self
@@ -92,10 +99,15 @@ impl PathStrokes {
 
 /// The cluster of a stroke.
 pub(crate) fn cluster_of(buffers: &SceneBuffers, stroke: u32) -> usize {
-    let end = buffers
-        .cluster_list
-        .partition_point(|c| c.first_stroke <= stroke);
-    end - 1
+    let clusters = &buffers.cluster_list;
+    // Nearly all clusters before it are full, and none holds more.
+    let mut first = (stroke / CLUSTER_STROKES) as usize;
+    let (mut end, mut step) = (first + 1, 1);
+    while clusters.get(end).is_some_and(|c| c.first_stroke <= stroke) {
+        (first, end, step) = (end, end + step, 2 * step);
+    }
+    let near = &clusters[first..end.min(clusters.len())];
+    first + near.partition_point(|c| c.first_stroke <= stroke) - 1
 }
 
 /// Number of points that fit in the place of a stroke.

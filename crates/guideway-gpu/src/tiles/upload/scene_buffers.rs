@@ -17,6 +17,9 @@ use crate::tiles::options::NAME;
 /// Least capacity of a point buffer for edited paths, in points.
 const MIN_EDIT_POINTS: u32 = 1 << 14;
 
+/// Clusters whose paths one task counts.
+const TASK_CLUSTERS: usize = 256;
+
 /// Paths that one task cuts into parts.
 const TASK_PATHS: usize = 1 << 14;
 
@@ -157,12 +160,20 @@ impl SceneBuffers {
     /// Counts the whole paths of some clusters, after their strokes have changed.
     pub(crate) fn count_whole_paths(&mut self, clusters: impl Iterator<Item = usize>) {
         self.whole_paths.resize(self.cluster_list.len(), 0);
-        for index in clusters {
+        let count = |index: usize| {
             let cluster = &self.cluster_list[index];
             let first = cluster.first_stroke as usize;
             let strokes = &self.stroke_list[first..first + cluster.strokes as usize];
-            let whole = strokes.iter().filter(|stroke| stroke.is_whole_path());
-            self.whole_paths[index] = whole.count() as u32;
+            strokes
+                .iter()
+                .filter(|stroke| stroke.is_whole_path())
+                .count() as u32
+        };
+        let clusters: Vec<usize> = clusters.collect();
+        let counted = clusters.par_iter().with_min_len(TASK_CLUSTERS);
+        let counts: Vec<u32> = counted.map(|&index| count(index)).collect();
+        for (index, count) in clusters.into_iter().zip(counts) {
+            self.whole_paths[index] = count;
         }
     }
 
