@@ -6,7 +6,7 @@
 //!   clusters             |    0      |     1      |      a task each: strokes, points and boxes
 //! ```
 //!
-//! Paths of several strokes, and those that leave the place of their stroke, are left to the caller.
+//! Paths of several strokes, and those that leave the place of their stroke, are for the caller.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -107,7 +107,7 @@ impl EditedScene<'_> {
     }
 }
 
-/// Where tasks find ranks and points.
+/// Ranks and points of the strokes.
 struct Places<'a> {
     edited: &'a EditedScene<'a>,
     ranks: &'a DrawRanks,
