@@ -23,8 +23,8 @@ use guideway_scene::cluster::DirtyClusters;
 /// Unused points from which on the scene is packed again: this many, or a quarter of all points.
 const MAX_UNUSED_POINTS: usize = 1 << 16;
 
-/// Paths with curves in other places from which on the scene is packed again: this many, and this
-/// part of all strokes.
+/// Paths with new curves from which on the scene is packed again: this many, and this part of all
+/// strokes.
 const MIN_PACKED_PATHS: usize = 1 << 16;
 const PACKED_PART: usize = 4;
 
@@ -151,6 +151,10 @@ fn write_curves(
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
     let mut patches = EditPatches::default();
+    let most = MIN_PACKED_PATHS.max(buffers.stroke_list.len() / PACKED_PART);
+    if are_new && rows.len() >= most {
+        return Ok(false);
+    }
     let mut rows = Cow::Borrowed(rows);
     if rows.len() >= bulk_edit::MIN_PATHS {
         let (several, hidden) = (&uploaded.multi_stroke_paths, &uploaded.hidden_edits);
@@ -161,10 +165,6 @@ fn write_curves(
             are_new,
         };
         rows = bulk_edit::rewrite(&edited, buffers, &rows, &mut patches).into();
-        let most = MIN_PACKED_PATHS.max(buffers.stroke_list.len() / PACKED_PART);
-        if are_new && rows.len() >= most {
-            return Ok(false);
-        }
     }
     let mut moved_parts = Vec::new();
     let mut parts = Vec::new();
