@@ -157,7 +157,7 @@ impl<'b> Filter<'b> {
     }
 }
 
-/// The corners of a record; none if a number is malformed.
+/// The corners of a record, or an empty list where a number is malformed.
 fn corners(record: &Record<'_>) -> Vec<Vector3> {
     let corners = record.vectors(10);
     match record.bad_code.get() {

@@ -228,7 +228,7 @@ fn clipped_blocks_are_cut_at_their_boundary() {
 #[test]
 fn inverted_boundaries_hide_their_inside() {
     let insert = "0 INSERT\n5 B1\n2 RACK\n10 5\n20 5\n";
-    // AutoCAD writes this one for programs that know no inverted boundaries, and leaves corners out.
+    // AutoCAD writes this one for programs without inverted boundaries, and leaves corners out.
     let filter = "102 {ACAD_XDICTIONARY\n360 X\n102 }\n70 3\n10 7\n20 6\n10 -9\n20 6\n\
                   10 7\n20 5.9\n";
     let record = |corners: &str| {
