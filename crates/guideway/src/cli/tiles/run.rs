@@ -62,7 +62,9 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     }
     let writing = out.progress(format!("writing {}", shown_path(&args.output)));
     // Without folders: the file may be for anyone.
-    let names = args.files().map(|file| file.file_name().unwrap_or_default());
+    let names = args
+        .files()
+        .map(|file| file.file_name().unwrap_or_default());
     let names: Vec<_> = names.map(|name| name.to_string_lossy()).collect();
     let name = names.join(" + ");
     let info = ArchiveInfo {
