@@ -49,8 +49,9 @@ impl Layout {
         self.paths.len() + self.refused.len()
     }
 
-    /// The first path with this identifier, if any. Looks at all paths.
-    pub fn path(&self, id: &str) -> Option<PathRef<'_>> {
+    /// The path (the edge, in the words of LIF) with this identifier, if any: the first one. Looks
+    /// at all paths.
+    pub fn edge(&self, id: &str) -> Option<PathRef<'_>> {
         self.paths.iter().find(|path| path.id() == id)
     }
 

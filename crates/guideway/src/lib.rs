@@ -39,10 +39,10 @@
 //! ```
 //! # use guideway::layout::Value;
 //! let layout = guideway::open("examples/site.lif.json")?;
-//! let dock = layout.path("dock-1-002--dock-1-003").expect("the site has this path");
-//! assert_eq!(dock.value("maxSpeed"), Some(Value::Float(0.3)));
+//! let dock = layout.edge("dock-1-002--dock-1-003").expect("the site has this edge");
+//! assert_eq!(dock.attribute("maxSpeed"), Some(Value::Float(0.3)));
 //! assert_eq!(dock.length_m(), 4.0);
-//! let middle = dock.point_at_m(2.0).expect("it has a curve");
+//! let middle = dock.point_at(2.0).expect("it has a curve");
 //! assert_eq!((middle.x, middle.y), (36.0, 4.0));
 //! # Ok::<(), guideway::formats::ReadError>(())
 //! ```
@@ -108,25 +108,26 @@
 //!
 //! # Edit
 //!
-//! A [`Document`](document::Document) records every change, so that it can be undone.
+//! A [`Document`](document::Document) records every change, so that it can be undone. What belongs
+//! together follows: paths their nodes, stations their places, stated lengths their curves.
 //!
 //! ```
 //! use std::sync::Arc;
 //!
 //! use guideway::document::Document;
 //! use guideway::scene::SceneOptions;
-//! use guideway::spline::{Affine, Point};
+//! use guideway::spline::Point;
 //!
-//! let layout = guideway::open("examples/site.lif.json")?;
-//! let mut document = Document::new(Arc::new(layout), &SceneOptions::default())?;
-//! let left = |document: &Document| document.bounds().map(|bounds| bounds.min.x);
-//! let before = left(&document);
+//! let layout = Arc::new(guideway::open("examples/site.lif.json")?);
+//! let dock = layout.edge("dock-1-002--dock-1-003").expect("the site has this edge");
+//! let node = dock.end_node().expect("it ends at a node");
+//! let mut document = Document::new(Arc::clone(&layout), &SceneOptions::default())?;
+//! let length_m = |of: &Document| of.layout().edge(dock.id()).map(|edge| edge.length_m());
 //!
-//! document.select_all();
-//! document.transform_selection("move", Affine::translation(Point::new(5.0, 0.0)))?;
-//! assert!(left(&document) > before);
-//! assert_eq!(document.undo(), Some("move"));
-//! assert_eq!(left(&document), before);
+//! document.move_node(node, layout.nodes.position_m(node) + Point::new(0.5, 0.0))?;
+//! assert!(length_m(&document) > Some(4.0));
+//! document.undo();
+//! assert_eq!(length_m(&document), Some(4.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -82,7 +82,7 @@ impl Near {
         let segments: Vec<_> = segments.collect();
         (!segments.is_empty()).then_some(Self {
             runs,
-            middle_m: path.point_at_m(path.length_m() / 2.0),
+            middle_m: path.point_at(path.length_m() / 2.0),
             level: path.level(),
             segments,
         })

@@ -277,7 +277,7 @@ impl<'a> PathRef<'a> {
     }
 
     /// Value in a column: see [`Paths::value`].
-    pub fn value(self, name: &str) -> Option<Value<'a>> {
+    pub fn attribute(self, name: &str) -> Option<Value<'a>> {
         self.paths.value(self.row, name)
     }
 
@@ -292,7 +292,7 @@ impl<'a> PathRef<'a> {
 
     /// The point of the curve at a distance along it from its start, in meters, within a tenth of a
     /// millimeter; its end for a greater distance. `None` if it has no segments.
-    pub fn point_at_m(self, along_m: f64) -> Option<Point<f64>> {
+    pub fn point_at(self, along_m: f64) -> Option<Point<f64>> {
         let mut runs = Runs::default();
         self.copy_runs(&mut runs);
         let at = parameter_at_length(&runs, along_m.max(0.0), LENGTH_TOLERANCE_M)?;

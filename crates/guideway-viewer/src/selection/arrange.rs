@@ -91,7 +91,7 @@ fn split(
     }
     for path in paths {
         let of_path = document.layout().paths.get(path as usize);
-        if let Some(middle_m) = of_path.point_at_m(of_path.length_m() / 2.0) {
+        if let Some(middle_m) = of_path.point_at(of_path.length_m() / 2.0) {
             document.split_at(&PathSet::from_iter([path]), middle_m, ON_PATH_M)?;
         }
     }

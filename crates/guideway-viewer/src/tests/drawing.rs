@@ -44,7 +44,7 @@ fn bezier_curves_are_drawn_by_their_control_points() {
     let document = window.document();
     assert_eq!(document.existing(Table::Nodes).count(), 2);
     let path = document.layout().paths.get(0);
-    let middle = path.point_at_m(path.length_m() / 2.0).unwrap();
+    let middle = path.point_at(path.length_m() / 2.0).unwrap();
     assert!(middle.distance(Point::new(5.5, 2.5)) < 1e-3, "{middle:?}");
 }
 
@@ -164,7 +164,7 @@ fn arc_by_three_clicks_by_radius_and_on_from_a_path() {
     window.type_line("r2");
     let middle = |window: &mut TestWindow, row| {
         let path = window.document().layout().paths.get(row);
-        path.point_at_m(path.length_m() / 2.0).unwrap()
+        path.point_at(path.length_m() / 2.0).unwrap()
     };
     let bulge = middle(&mut window, 1);
     assert!(bulge.distance(Point::new(12.0, 2.0)) < 1e-3, "{bulge:?}");

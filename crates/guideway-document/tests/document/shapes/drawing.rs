@@ -228,7 +228,7 @@ fn paths_get_the_properties_of_the_template_and_the_shown_level() {
 /// The point halfway along the first path.
 fn middle_of(layout: &Layout) -> Option<Point<f64>> {
     let path = layout.paths.get(0);
-    path.point_at_m(path.length_m() / 2.0)
+    path.point_at(path.length_m() / 2.0)
 }
 
 #[test]

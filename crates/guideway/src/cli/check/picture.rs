@@ -148,7 +148,7 @@ fn position(layout: &Layout, element: Element) -> Option<Point<f64>> {
     match element {
         Element::Path(row) => {
             let path = layout.paths.get(row as usize);
-            path.point_at_m(path.length_m() / 2.0)
+            path.point_at(path.length_m() / 2.0)
         }
         Element::Node(row) => Some(layout.nodes.position_m(row)),
         Element::Station(row) => layout.station_position_m(row),
