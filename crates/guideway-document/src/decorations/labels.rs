@@ -194,7 +194,7 @@ pub(super) fn place<'a>(
         if labels.len() == MAX_LABELS {
             break;
         }
-        if name.text.is_empty() {
+        if name.text.is_empty() || is_place(name.text) {
             continue;
         }
         let text = single_line(name.text, MAX_CHARS);
@@ -242,6 +242,19 @@ pub(super) fn place<'a>(
     labels
 }
 
+/// Returns `true` if a name is a place in a file, such as `L1.vertices[4]`: readers give it to
+/// elements without a name, and it tells a person nothing.
+fn is_place(name: &str) -> bool {
+    let parts = name.strip_suffix(']').and_then(|name| {
+        let (list, index) = name.rsplit_once('[')?;
+        Some((list.rsplit_once('.')?.1, index))
+    });
+    parts.is_some_and(|(list, index)| {
+        let is_list = !list.is_empty() && list.bytes().all(|byte| byte.is_ascii_lowercase());
+        is_list && !index.is_empty() && index.bytes().all(|byte| byte.is_ascii_digit())
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use guideway_layout::{Layout, NewPath};
@@ -285,6 +298,21 @@ mod tests {
             places: LabelPlaces::Beside(sides),
             max_crossed: 0.0,
             spares_arrows: true,
+        }
+    }
+
+    #[test]
+    fn places_in_a_file_are_no_names() {
+        for (text, is_shown) in [
+            ("L1.vertices[4]", false),
+            ("B.2.lanes[10]", false),
+            ("rack[4]", true),
+            ("L1.vertices[]", true),
+            ("L1.rack [4]", true),
+        ] {
+            let at = Point::new(1.0, 50.0);
+            let placed = placed(vec![name(text, at, &[Side::Right])], &[], 5.0);
+            assert_eq!(placed.len(), usize::from(is_shown), "{text}");
         }
     }
 
