@@ -46,7 +46,6 @@ pub fn adapters() -> Vec<String> {
     let mut found: Vec<AdapterInfo> = found.iter().map(Adapter::get_info).collect();
     found.sort_by_key(|info| preference(info.device_type));
     let shown = found.iter().map(|info| {
-        let driver = format!("{} {}", info.driver, info.driver_info);
         let kind = match info.device_type {
             DeviceType::DiscreteGpu => "graphics card",
             DeviceType::IntegratedGpu => "graphics in the processor",
@@ -54,9 +53,19 @@ pub fn adapters() -> Vec<String> {
             DeviceType::Other => "unknown kind",
             DeviceType::Cpu => "program on the processor",
         };
-        format!("{}: {}, {kind}, {}", info.name, info.backend, driver.trim())
+        let driver = driver(info);
+        format!("{}: {}, {kind}, {driver}", info.name, info.backend)
     });
     shown.collect()
+}
+
+/// Driver of an adapter with its version, without a name that the adapter begins with, as
+/// `llvmpipe` does.
+pub(super) fn driver(info: &AdapterInfo) -> String {
+    let driver = info.driver.as_str();
+    let is_named = info.name.split(' ').next() == Some(driver);
+    let name = if is_named { "" } else { driver };
+    format!("{name} {}", info.driver_info).trim().to_owned()
 }
 
 fn preference(kind: DeviceType) -> u8 {

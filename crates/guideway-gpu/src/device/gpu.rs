@@ -91,8 +91,7 @@ impl Gpu {
 
     /// Name of the adapter and its driver, for reports.
     pub fn adapter_name(&self) -> String {
-        let driver = format!("{} {}", self.info.driver, self.info.driver_info);
-        format!("{} ({})", self.info.name, driver.trim())
+        format!("{} ({})", self.info.name, adapter::driver(&self.info))
     }
 
     /// The device itself.
