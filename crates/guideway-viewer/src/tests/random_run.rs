@@ -8,7 +8,7 @@ use super::services::lanes;
 use super::test_window::TestWindow;
 
 /// Events of the run: some minutes of input.
-const EVENTS: usize = 3_000;
+const EVENTS: usize = 2_000;
 
 #[test]
 fn random_input_keeps_document_history_and_picture_consistent() {

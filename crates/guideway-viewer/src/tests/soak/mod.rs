@@ -322,7 +322,7 @@ fn document(layout: Layout) -> Document {
 #[test]
 fn short_soak_loses_nothing() {
     let mut soak = Soak::new(11);
-    let outcome = soak.run(&Length::Chapters(5));
+    let outcome = soak.run(&Length::Chapters(3));
     println!("{}", soak.record.text(11, 0.0));
     assert_eq!(outcome, Ok(()));
     // A thread that panics fails the run.
