@@ -47,7 +47,7 @@ impl<'a> Layer<'a> {
                 "level" => path
                     .level()
                     .map(|level| Value::Text(layout.levels[level as usize].id.as_str())),
-                other => path.value(other),
+                other => path.attribute(other),
             };
             if let Some(number) = value.and_then(|value| self.number_of(value)) {
                 self.tags.extend([key, number]);
