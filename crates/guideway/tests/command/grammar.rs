@@ -52,6 +52,21 @@ fn dash_reads_standard_input() {
 }
 
 #[test]
+fn convert_takes_its_output_last_or_by_o() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = site();
+    let file = path.to_str().unwrap();
+    let last = in_folder(folder.path(), &["convert", file, "last.geojson"]);
+    let named = in_folder(folder.path(), &["convert", file, "-o", "named.geojson"]);
+    assert!(last.status.success() && named.status.success());
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(bytes("last.geojson"), bytes("named.geojson"));
+    let missing = in_folder(folder.path(), &["convert", file]);
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(stderr(&missing).contains("by -o"), "{}", stderr(&missing));
+}
+
+#[test]
 fn dash_is_read_once_and_limits_hold() {
     let twice = run_with_input(&site(), &["info", "-", "-"]);
     assert!(stderr(&twice).contains("given twice"), "{}", stderr(&twice));
