@@ -177,7 +177,7 @@ fn copy_parts<A: Copy + Sync, B: Send>(
     convert: impl Fn(A) -> B + Sync,
 ) {
     for_each_part(to, parts, &|to, range| {
-        copy(to, &from[range.clone()], &convert)
+        copy(to, &from[range.clone()], &convert);
     });
 }
 

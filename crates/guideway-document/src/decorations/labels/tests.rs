@@ -47,11 +47,11 @@ fn name(text: &'static str, at_px: Point<f64>, sides: &'static [Side]) -> Name<'
 #[test]
 fn places_in_a_file_are_no_names() {
     for (text, is_shown) in [
-        ("L1.vertices[4]", false),
-        ("B.2.lanes[10]", false),
+        ("L1.rows[4]", false),
+        ("B.2.rows[1]", false),
         ("rack[4]", true),
-        ("L1.vertices[]", true),
-        ("L1.rack [4]", true),
+        ("L1.rows[]", true),
+        ("L1.rows [4]", true),
     ] {
         let at = Point::new(1.0, 50.0);
         let placed = placed(vec![name(text, at, &[Side::Right])], &[], 5.0);
