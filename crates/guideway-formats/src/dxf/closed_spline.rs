@@ -31,7 +31,11 @@ pub(super) fn close(
         builder.report(Code::MissingKnots, at, message, "Uniform knots are used");
     } else if is_closed {
         unroll(spline);
-    } else if degree > 2 && count == points + 1 && spline.knots[0] < spline.knots[1] {
+    } else if degree > 2
+        && points > degree
+        && count == points + 1
+        && spline.knots[0] < spline.knots[1]
+    {
         // With fewer knots, the degrees 1 and 2 have other mistakes.
         if unroll(spline) {
             let message = || {
