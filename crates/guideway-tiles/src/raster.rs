@@ -12,6 +12,9 @@ use crate::png_tile::encode;
 use crate::tile::TILE_PX;
 use crate::{GridKind, Tile, TileError, TileGrid};
 
+/// The bytes of a PNG file.
+pub type Png = Vec<u8>;
+
 /// A scene that a method has prepared, and the style of its tiles.
 pub struct Painter {
     prepared: Box<dyn Prepared>,
@@ -94,7 +97,7 @@ impl Painter {
         zooms: u8,
         tones: Option<&ToneScale>,
         cancel: &Cancel,
-    ) -> Result<Vec<(Tile, Option<Vec<u8>>)>, TileError> {
+    ) -> Result<Vec<(Tile, Option<Png>)>, TileError> {
         let view = self.grid.view(tile, zooms)?;
         match tones {
             Some(tones) => {
@@ -144,7 +147,7 @@ fn encode_part(
     frame: &Frame,
     [left, top]: [usize; 2],
     background: Rgba,
-) -> Result<Option<Vec<u8>>, TileError> {
+) -> Result<Option<Png>, TileError> {
     let background = background.to_u32().to_be_bytes();
     let (width, side) = (frame.size().width() as usize, TILE_PX as usize);
     let rows = (top..top + side).map(|row| &frame.pixels()[row * width + left..][..side]);

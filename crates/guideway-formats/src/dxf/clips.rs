@@ -87,9 +87,7 @@ impl<'b> Clips<'b> {
                     filters.push(Filter::of(record, owner));
                 }
                 b"XRECORD" if !owner.is_empty() => {
-                    if keep_inverted(record) {
-                        inverted.insert(owner, corners(record));
-                    }
+                    inverted.extend(keep_inverted(record).then(|| (owner, corners(record))));
                 }
                 _ => {}
             }
