@@ -34,15 +34,20 @@ impl Toolchain {
         std::fs::create_dir_all(&packages)?;
         apt(&["update", "-q"])?;
         let mut names: Vec<String> = PACKAGES.map(str::to_owned).to_vec();
-        let depends = command("apt-cache").args(["depends"]).args(PACKAGES);
-        let depends = depends.capture()?.stdout;
-        let needed = depends
-            .lines()
-            .filter_map(|line| line.trim().strip_prefix("Depends: "));
-        let needed = needed.filter(|name| NEEDED.iter().any(|start| name.starts_with(start)));
-        names.extend(needed.map(str::to_owned));
-        names.sort();
-        names.dedup();
+        let mut known = 0;
+        // Each round adds the packages that those of the last one need.
+        while known < names.len() {
+            known = names.len();
+            let depends = command("apt-cache").args(["depends"]).args(&names);
+            let depends = depends.capture()?.stdout;
+            let needed = depends
+                .lines()
+                .filter_map(|line| line.trim().strip_prefix("Depends: "));
+            let needed = needed.filter(|name| NEEDED.iter().any(|start| name.starts_with(start)));
+            names.extend(needed.map(str::to_owned));
+            names.sort();
+            names.dedup();
+        }
         let download = command("apt-get").args(["download"]).args(&names);
         download.current_dir(&packages).run()?;
         for package in std::fs::read_dir(&packages)? {
