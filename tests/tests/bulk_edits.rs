@@ -44,6 +44,9 @@ fn restyled(rows: &[u32]) -> Edit {
     Edit::Restyle(rows.iter().map(|&row| (row, style(row))).collect())
 }
 
+/// A name, rows of paths, and an edit of them.
+type Step<'a> = (&'a str, &'a [u32], &'a dyn Fn(&[u32]) -> Edit);
+
 fn edited(prepared: &mut dyn Prepared, edit: &Edit) {
     let outcome = prepared.edit(edit).expect("a valid edit");
     assert_ne!(outcome, EditOutcome::NotInPlace);
@@ -63,7 +66,7 @@ fn an_edit_of_many_paths_equals_edits_of_some() {
         .filter(|row| row % 9 > 0)
         .collect();
     let (some, half) = (&rows[rows.len() / 10..], &rows[..rows.len() / 2 + 7]);
-    let steps: [(&str, &[u32], &dyn Fn(&[u32]) -> Edit); 5] = [
+    let steps: [Step<'_>; 5] = [
         ("moved", &rows, &|rows| moved(&scene, rows, 0.3)),
         ("hidden", some, &|rows| with_state(rows, PathState::Hidden)),
         ("moved while hidden", half, &|rows| moved(&scene, rows, 0.9)),

@@ -1,5 +1,7 @@
 //! Raster tiles against one large picture, and runs that are stopped and go on.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
+
 use std::cell::Cell;
 use std::fs::OpenOptions;
 use std::io::Cursor;

@@ -6,8 +6,10 @@ use std::cmp::Reverse;
 use guideway::document::Element;
 use guideway::layout::{Layout, LineIndex, Place, SourceSpans};
 
-/// Lists of elements, by the names that formats have for them.
-const LISTS: [(&[&str], fn(u32) -> Element); 3] = [
+/// Names that formats have for a list of elements, and an element of it by its row.
+type List = (&'static [&'static str], fn(u32) -> Element);
+
+const LISTS: [List; 3] = [
     (&["edges[", "lanes["], Element::Path),
     (&["nodes[", "vertices["], Element::Node),
     (&["stations["], Element::Station),
