@@ -28,9 +28,11 @@ const PIXEL_BYTES: usize = 4;
 pub struct GuidewayDrawing {
     scene: Arc<Scene>,
     index: OnceLock<Index>,
-    /// The method, and the last picture, whose memory the next one uses again.
-    state: Mutex<(Box<dyn Prepared>, Frame)>,
+    state: Mutex<State>,
 }
+
+/// The method, and the last picture, whose memory the next one uses again.
+type State = (Box<dyn Prepared>, Frame);
 
 /// The part of a layout that a picture shows, and its size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -271,7 +273,7 @@ pub unsafe extern "C" fn guideway_drawing_hit_test(
 
 impl GuidewayDrawing {
     /// The method and its frame, prepared anew where a fault stopped the last picture.
-    fn state(&self) -> Result<MutexGuard<'_, (Box<dyn Prepared>, Frame)>, UserError> {
+    fn state(&self) -> Result<MutexGuard<'_, State>, UserError> {
         match self.state.lock() {
             Ok(state) => Ok(state),
             Err(poisoned) => {

@@ -140,7 +140,7 @@ fn page_of_a_pdf_is_a_floor_plan() {
     let pdf = folder.path().join("wall.pdf");
     let args = ["render", text(&wall), "-o", text(&pdf), "--min-px", "4"];
     let view = ["--size", "80x80", "--center", "0,0", "--scale", "1"];
-    let output = run(&[&args[..], &view].concat());
+    let output = run([&args[..], &view].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     // The page has 96 pixels per inch, its image 200.
     let place = "px-per-m=2.083333,offset=-40,-40";
@@ -151,7 +151,7 @@ fn page_of_a_pdf_is_a_floor_plan() {
     let layout = far(folder.path());
     let no_page = plan(2);
     let args = ["render", text(&layout), "-o", "-", "--floor-plan", &no_page];
-    let output = run(&args);
+    let output = run(args);
     assert_eq!(output.status.code(), Some(2));
     assert!(
         stderr(&output).contains("fewer pages"),
