@@ -38,6 +38,6 @@ pub use error::TileError;
 pub use grid::{GridKind, TileGrid};
 pub use place::place;
 pub use pyramid::{Content, Made, Pyramid};
-pub use raster::{Painter, Png};
+pub use raster::{Png, TileRenderer};
 pub use tile::{MAX_ZOOM, TILE_PX, Tile};
 pub use vector::{EXTENT, VectorOptions, VectorTile, draw_vector_tile};

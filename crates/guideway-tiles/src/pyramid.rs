@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::archive::{BlockCounts, Journal};
 use crate::descent::Descent;
-use crate::raster::Painter;
+use crate::raster::TileRenderer;
 use crate::vector::{VectorOptions, buffer_m, compress, vector_tile};
 use crate::{Tile, TileError, TileGrid};
 
@@ -19,7 +19,7 @@ const BLOCK_ZOOMS: u8 = 3;
 /// Kind of the tiles.
 pub enum Content {
     /// PNG.
-    Raster(Box<Painter>),
+    Raster(Box<TileRenderer>),
     /// Mapbox vector tiles.
     Vector(VectorOptions),
 }
@@ -54,7 +54,7 @@ impl Pyramid<'_> {
     /// When a tile cannot be drawn or encoded, or the journal cannot be written.
     pub fn make(&self, content: &mut Content, journal: &mut Journal) -> Result<Made, TileError> {
         let made = self.zooms.clone().try_for_each(|zoom| match content {
-            Content::Raster(painter) => self.make_raster(zoom, painter, journal),
+            Content::Raster(renderer) => self.make_raster(zoom, renderer, journal),
             Content::Vector(options) => self.make_vector(zoom, options, journal),
         });
         match made {
@@ -67,26 +67,26 @@ impl Pyramid<'_> {
     fn make_raster(
         &self,
         zoom: u8,
-        painter: &mut Painter,
+        renderer: &mut TileRenderer,
         journal: &mut Journal,
     ) -> Result<(), TileError> {
         let below = zoom.min(BLOCK_ZOOMS);
-        let descent = self.descent(painter.reach_m(&self.scene, zoom));
+        let descent = self.descent(renderer.reach_m(&self.scene, zoom));
         let next_id = journal.next_id();
         let is_left = |tile: Tile| tile.last_id(zoom - tile.z) >= next_id;
-        let mut tones = painter.tones().filter(|_| is_left(Tile::WORLD));
+        let mut tones = renderer.tones().filter(|_| is_left(Tile::WORLD));
         let begins_at = if tones.is_some() { 0.5 } else { 0.0 };
         if let Some(tones) = &mut tones {
             // Tiles have their colors in common only if all have been counted before.
             descent.for_each(zoom - below, &|_| true, &mut |block, _| {
                 self.advance(zoom, block, [0.0, 0.5])?;
-                painter.observe(block, below, tones, self.cancel)
+                renderer.observe(block, below, tones, self.cancel)
             })?;
         }
         let max_count = tones.as_ref().map(|tones| tones.max_count());
         descent.for_each(zoom - below, &is_left, &mut |block, _| {
             self.advance(zoom, block, [begins_at, 1.0])?;
-            let tiles = painter.draw(block, below, tones.as_ref(), self.cancel)?;
+            let tiles = renderer.draw(block, below, tones.as_ref(), self.cancel)?;
             let tiles = tiles
                 .into_iter()
                 .filter_map(|(tile, png)| Some((tile, png?)));

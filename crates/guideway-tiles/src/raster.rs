@@ -1,4 +1,4 @@
-//! [`Painter`]: draws blocks of tiles by a render method, and cuts them into PNG tiles.
+//! [`TileRenderer`]: draws blocks of tiles by a render method, and cuts them into PNG tiles.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::{GridKind, Tile, TileError, TileGrid};
 pub type Png = Vec<u8>;
 
 /// A scene that a method has prepared, and the style of its tiles.
-pub struct Painter {
+pub struct TileRenderer {
     prepared: Box<dyn Prepared>,
     method: &'static str,
     grid: TileGrid,
@@ -25,7 +25,7 @@ pub struct Painter {
     counts: Vec<f32>,
 }
 
-impl Painter {
+impl TileRenderer {
     /// Prepares a scene, whose widths `style` gives in meters on the ground.
     ///
     /// # Errors

@@ -16,8 +16,8 @@ use guideway_scene::{
 };
 use guideway_spline::{Point, Runs};
 use guideway_tiles::{
-    ArchiveInfo, Content, Journal, Made, Painter, Pyramid, TILE_PX, Tile, TileGrid, VectorOptions,
-    place,
+    ArchiveInfo, Content, Journal, Made, Pyramid, TILE_PX, Tile, TileGrid, TileRenderer,
+    VectorOptions, place,
 };
 
 /// Halls of a data set, and curves far larger than a tile.
@@ -106,10 +106,10 @@ fn check(options: &SceneOptions, shading: Shading, zoom: u8) {
         scale.observe(&counts);
         tones = Some(scale);
     }
-    let mut painter = Painter::new(&Cpu, Arc::clone(&scene), grid, style, &budget).unwrap();
+    let mut renderer = TileRenderer::new(&Cpu, Arc::clone(&scene), grid, style, &budget).unwrap();
     let mut compare = |tile: Tile, zooms: u8| {
         let mut shown = 0;
-        for (tile, png) in painter.draw(tile, zooms, tones.as_ref(), &cancel).unwrap() {
+        for (tile, png) in renderer.draw(tile, zooms, tones.as_ref(), &cancel).unwrap() {
             if tile.x.min(tile.y) < first || tile.x >= first + width || tile.y >= first + height {
                 continue;
             }
@@ -216,8 +216,8 @@ fn a_run_that_was_stopped_makes_the_same_archive() {
             shading: Shading::Density(ToneMap::Log),
             ..Style::default()
         };
-        let painter = Painter::new(&Cpu, scene, grid, style, &Budget::default());
-        Content::Raster(Box::new(painter.unwrap()))
+        let renderer = TileRenderer::new(&Cpu, scene, grid, style, &Budget::default());
+        Content::Raster(Box::new(renderer.unwrap()))
     };
     let vector = || Content::Vector(VectorOptions::default());
     check_stops(&density, 31);

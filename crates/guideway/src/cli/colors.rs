@@ -10,8 +10,8 @@ use clap::error::{ContextKind, ContextValue};
 use guideway::scene::Rgba;
 
 // Documented variants would be a list in each help.
-/// Where words have colors: `Auto` is on a terminal, unless `NO_COLOR` is set, and wherever
-/// `CLICOLOR_FORCE` is.
+/// The condition for colors of words: `Auto` means a terminal, unless `NO_COLOR` is set, or that
+/// `CLICOLOR_FORCE` is set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum When {
     #[default]

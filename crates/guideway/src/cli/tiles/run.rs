@@ -6,7 +6,7 @@ use guideway::layout::{UserError, shown_path};
 use guideway::replace_file;
 use guideway::scene::{Cancel, Scene};
 use guideway::tiles::{
-    ArchiveInfo, ArchiveSize, Content, GridKind, Made, Painter, Pyramid, TileGrid, place,
+    ArchiveInfo, ArchiveSize, Content, GridKind, Made, Pyramid, TileGrid, TileRenderer, place,
 };
 use guideway::{SaveError, tiles::MAX_ZOOM};
 use serde_json::{Value, json};
@@ -42,8 +42,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         None => {
             let (method, style) = (guideway::method(METHOD)?, args.style.style()?);
             let shared = Arc::clone(&scene);
-            let painter = Painter::new(&*method, shared, grid, style, &args.budget())?;
-            Content::Raster(Box::new(painter))
+            let renderer = TileRenderer::new(&*method, shared, grid, style, &args.budget())?;
+            Content::Raster(Box::new(renderer))
         }
     };
     let mut unfinished = Unfinished::open(args)?;
