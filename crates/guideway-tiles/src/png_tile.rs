@@ -120,7 +120,7 @@ mod tests {
     fn check(color: impl Fn(usize) -> [u8; 4], is_indexed: bool) {
         let side = TILE_PX as usize;
         let pixels: Vec<[u8; 4]> = (0..side * side).map(color).collect();
-        let png = encode(pixels.chunks(side), [255; 4]).unwrap();
+        let png = encode(pixels.chunks(side), pixels[0]).unwrap();
         assert!(decode(&png) == pixels);
         let color_type = png[25];
         assert_eq!(color_type == 3, is_indexed);
