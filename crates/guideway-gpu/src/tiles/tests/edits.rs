@@ -125,7 +125,6 @@ fn edit_refreshes_only_the_lines_of_its_clusters() {
     let Some(tiles) = tiles() else { return };
     let density = style(Shading::Density(ToneMap::Log));
     for (scene, style, has_few) in [
-        (plain(6000, 4.0), Style::default(), false),
         (mixed(6000, 4.0), Style::default(), false),
         (plain(6000, 4.0), density, true),
     ] {
@@ -211,7 +210,6 @@ fn edit_redraws_only_the_tiles_that_it_touches() {
     let size = FrameSize::new(420, 260).unwrap();
     let here = View::new(size, Point::new(50.0, 30.0), 4.0).unwrap();
     for (tiles, scene, style, has_space) in [
-        (&tiles, plain(3000, 1.0), Style::default(), true),
         (&tiles, plain(3000, 1.0), density, true),
         // No space behind the cached lines; and buffers that hold only a part of the picture.
         (&tiles, mixed(3000, 1.0), Style::default(), false),
