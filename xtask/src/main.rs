@@ -1,5 +1,6 @@
 //! Project chores: `cargo xtask test` installs what it needs and runs every check.
 
+mod beside;
 mod conformance;
 mod pack;
 mod prerequisites;
@@ -16,12 +17,14 @@ use anyhow::{Context, Result, bail};
 use xtask::module_graph::workspace_circles;
 use xtask::style::check_repository;
 
+use beside::Beside;
 use prerequisites::{CARGO_DENY, CARGO_FUZZ, CBINDGEN, MDBOOK};
 use step::{STARTED, build_with_workspace, cargo, elapsed_s, heading};
 
 const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licenses (what CI runs)
 cargo xtask quick       format, lints and tests, without installing anything
+cargo xtask checks      all but format, lints and tests, which `test` runs beside the tests
 cargo xtask style [WORD]
                         module circles and breaches of the style rules (in files named WORD)
 cargo xtask fuzz [MINUTES [TARGET...]]
@@ -46,6 +49,7 @@ fn main() -> ExitCode {
     let outcome = match (task, &args.get(1..).unwrap_or_default()) {
         ("test", []) => test(),
         ("quick", []) => quick(),
+        ("checks", []) => checks(),
         ("conformance", rest) => conformance::run(rest),
         ("fuzz", rest) => fuzz(rest),
         ("sanitize", []) => sanitize(),
@@ -75,33 +79,32 @@ fn main() -> ExitCode {
 fn test() -> Result<()> {
     heading("prerequisites");
     prerequisites::rust_components()?;
-    let deny = CARGO_DENY.ensure()?;
-    let mdbook = MDBOOK.ensure()?;
-    let python = prerequisites::python()?;
-    step::set_env("GUIDEWAY_PYTHON", &python);
+    CARGO_DENY.ensure()?;
+    MDBOOK.ensure()?;
+    step::set_env("GUIDEWAY_PYTHON", prerequisites::python()?);
     prerequisites::software_devices()?;
     step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
-    quick()?;
+    lints()?;
+    heading("building the tests");
+    cargo(&["test", "--workspace", "--no-run"]).run()?;
+    build_with_workspace()?;
+    // Tests wait for devices and windows, and one core is free while another ends a long test.
+    let checks = Beside::start("checks")?;
+    let tested = tests();
+    let checked = checks.finish();
+    tested.and(checked)
+}
+
+/// Every check of the built workspace but its tests.
+fn checks() -> Result<()> {
     heading("Python package");
-    python_package(&python)?;
-    heading("each format by itself, and the library with one");
-    single_formats()?;
+    python_package(&prerequisites::python()?)?;
     heading("conformance, a few files per format");
     conformance::run(&["--quick".to_owned()])?;
-    heading("documentation");
-    cargo(&["doc", "--workspace", "--no-deps", "--quiet"])
-        .env("RUSTDOCFLAGS", "-D warnings")
-        .run()?;
-    step::command(&mdbook).args(["build", "docs"]).run()?;
-    // The page that docs/web.md embeds.
-    build_with_workspace()?;
-    step::command(std::env::current_exe()?.with_file_name("guideway"))
-        .args(["share", "crates/guideway/examples/site.lif.json", "--quiet"])
-        .args(["-o", "target/book/site.html", "--color-by", "maxSpeed"])
-        .run()?;
     heading("packages of the crates");
     published::check()?;
     heading("licenses, sources and bans");
+    let deny = CARGO_DENY.ensure()?;
     step::command(&deny)
         .args(["check", "bans", "licenses", "sources"])
         .run()?;
@@ -109,6 +112,20 @@ fn test() -> Result<()> {
     for manifest in WORKSPACES {
         check_advisories(&deny, manifest)?;
     }
+    heading("documentation");
+    cargo(&["doc", "--workspace", "--no-deps", "--quiet"])
+        .env("RUSTDOCFLAGS", "-D warnings")
+        .run()?;
+    let mdbook = MDBOOK.ensure()?;
+    step::command(&mdbook).args(["build", "docs"]).run()?;
+    // The page that docs/web.md embeds.
+    build_with_workspace()?;
+    step::command(std::env::current_exe()?.with_file_name("guideway"))
+        .args(["share", "crates/guideway/examples/site.lif.json", "--quiet"])
+        .args(["-o", "target/book/site.html", "--color-by", "maxSpeed"])
+        .run()?;
+    heading("each format by itself, and the library with one");
+    single_formats()?;
     heading("fuzzing");
     // Five seconds each.
     fuzz(&["0.08".to_owned()])
@@ -284,6 +301,11 @@ fn style(word: &str) -> Result<()> {
 }
 
 fn quick() -> Result<()> {
+    lints()?;
+    tests()
+}
+
+fn lints() -> Result<()> {
     heading("format");
     cargo(&["fmt", "--all", "--check"]).run()?;
     heading("lints");
@@ -296,7 +318,10 @@ fn quick() -> Result<()> {
         "-D",
         "warnings",
     ])
-    .run()?;
+    .run()
+}
+
+fn tests() -> Result<()> {
     heading("tests");
     cargo(&["test", "--workspace", "--no-fail-fast"]).run()
 }

@@ -1,8 +1,9 @@
 //! Runs commands: each is printed before it runs, with the environment that all steps share.
 
 use std::ffi::{OsStr, OsString};
+use std::fs::File;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Child, Command};
 use std::sync::{LazyLock, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -79,6 +80,14 @@ impl Step {
             bail!("{:?} failed: {status}", self.0);
         }
         Ok(())
+    }
+
+    /// Starts the command, whose output goes to a file.
+    pub(crate) fn start(mut self, output: File) -> Result<Child> {
+        let both = output.try_clone()?;
+        self.0.stdout(output).stderr(both);
+        let start = self.0.spawn();
+        start.with_context(|| format!("cannot start {:?}", self.0))
     }
 
     /// Runs the command and captures its output.
