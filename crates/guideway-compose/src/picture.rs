@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use guideway_document::Index;
 use guideway_document::decorations::DecorationStyle;
 use guideway_scene::{Budget, DrawList, FrameSize, RenderError, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
-use crate::decorations::{Decorations, PlacedDecorations, place, place_legend, place_scale_bar};
+use crate::decorations::{Decorations, PlacedCorners, PlacedDecorations, place, place_corners};
 use crate::png_writer::PngHeader;
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
@@ -30,6 +31,9 @@ pub struct Picture {
     pub overlay: DrawList,
     /// Grid, marks, legend, title and scale bar, derived from the scene and the view.
     pub decorations: Decorations,
+    /// The index of the layout, by which marks are found; `None` builds one where there are marks.
+    /// Many pictures of a layout share one.
+    pub index: Option<Arc<Index>>,
     /// Memory and threads of the render method.
     pub budget: Budget,
 }
@@ -86,6 +90,7 @@ impl Picture {
             backdrop: Backdrop::default(),
             overlay: DrawList::default(),
             decorations: Decorations::default(),
+            index: None,
             budget: Budget::default(),
         }
     }
@@ -106,16 +111,15 @@ impl Picture {
         if let (Some(center_m), Some(px_per_m)) = (center_m, px_per_m) {
             return View::new(size, center_m, px_per_m);
         }
-        let view = self.view_above(0.0)?;
-        let style = self.decoration_style();
-        match place_scale_bar(&self.decorations, &self.scene, &view, &style) {
-            Some(bar) if bar.covered > 0 => self.view_above(bar.bounds.size().y),
-            _ => Ok(view),
+        let (view, covered_px) = self.view_above(0.0)?;
+        match covered_px {
+            Some(height_px) => Ok(self.view_above(height_px)?.0),
+            None => Ok(view),
         }
     }
 
-    /// The view above a band at the bottom.
-    fn view_above(&self, bottom_px: f64) -> Result<View, RenderError> {
+    /// The view above a band at the bottom, and the height of the scale bar if paths are below it.
+    fn view_above(&self, bottom_px: f64) -> Result<(View, Option<f64>), RenderError> {
         let Viewport {
             size,
             center_m,
@@ -124,27 +128,35 @@ impl Picture {
         let bounds = [self.scene.bounds(), self.backdrop.bounds(&self.scene)];
         let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
         let bounds = self.frame_m.or(bounds);
-        let title_px = self.decorations.title_band_px(&self.decoration_style());
+        let style = self.decoration_style();
+        let title_px = self.decorations.title_band_px(&style);
         let plain = self.fit([0.0, title_px, bottom_px], px_per_m, bounds)?;
         if center_m.is_some() || px_per_m.is_some() {
             let center_m = center_m.unwrap_or(plain.center_m());
-            return View::new(size, center_m, plain.px_per_m());
+            let view = View::new(size, center_m, plain.px_per_m())?;
+            return Ok((view, covered_bar_px(&self.place_corners(&view))));
         }
-        let style = self.decoration_style();
-        let colors = (&*self.scene, self.style.shading);
-        match place_legend(&self.decorations, colors, &plain, &style) {
+        let corners = self.place_corners(&plain);
+        match &corners.legend {
             Some(legend) if legend.covered > 0 => {
                 let gap_px = style.line_px() / 2.0;
                 let room = legend.bounds.size() + Point::new(gap_px, gap_px);
                 let beside = self.fit([room.x, title_px, bottom_px], None, bounds)?;
                 let below = self.fit([0.0, title_px + room.y, bottom_px], None, bounds)?;
-                match beside.px_per_m() >= below.px_per_m() {
-                    true => Ok(beside),
-                    false => Ok(below),
-                }
+                let view = match beside.px_per_m() >= below.px_per_m() {
+                    true => beside,
+                    false => below,
+                };
+                Ok((view, covered_bar_px(&self.place_corners(&view))))
             }
-            _ => Ok(plain),
+            _ => Ok((plain, covered_bar_px(&corners))),
         }
+    }
+
+    /// Legend and scale bar in a view.
+    fn place_corners(&self, view: &View) -> PlacedCorners {
+        let colors = (&*self.scene, self.style.shading);
+        place_corners(&self.decorations, colors, view, &self.decoration_style())
     }
 
     /// The header of a PNG file of the picture. Levels side by side have no common place.
@@ -194,15 +206,22 @@ impl Picture {
     /// The decorations as draw lists for a view.
     pub(crate) fn place_decorations(&self, view: &View) -> PlacedDecorations {
         let style = self.decoration_style();
-        place(&self.decorations, &self.scene, view, &self.style, &style)
+        let scene = (&*self.scene, self.index.as_ref());
+        place(&self.decorations, scene, view, &self.style, &style)
     }
+}
+
+/// Height of a scale bar that paths are below, in pixels.
+fn covered_bar_px(corners: &PlacedCorners) -> Option<f64> {
+    let bar = corners.bar.as_ref().filter(|bar| bar.covered > 0);
+    bar.map(|bar| bar.bounds.size().y)
 }
 
 #[cfg(test)]
 mod tests {
     use guideway_document::decorations::Corner;
     use guideway_layout::{Layout, NewPath, Value};
-    use guideway_scene::{ColorBy, SceneOptions, Shading};
+    use guideway_scene::{ColorBy, SceneOptions};
     use guideway_spline::Runs;
 
     use super::*;
@@ -267,9 +286,7 @@ mod tests {
             let view = picture.view().unwrap();
             let bounds = view.world_bounds();
             assert!(bounds.contains(Point::new(0.0, 0.0)) && bounds.contains(side_m));
-            let style = picture.decoration_style();
-            let colors = (&*picture.scene, Shading::Color);
-            let legend = place_legend(&picture.decorations, colors, &view, &style);
+            let legend = picture.place_corners(&view).legend;
             assert_eq!(legend.unwrap().covered, 0, "{side_m:?}");
         }
     }
@@ -279,11 +296,8 @@ mod tests {
         let mut picture = with_legend(Point::new(12.0, 9.0));
         picture.decorations.has_legend = false;
         picture.decorations.has_scale_bar = true;
-        let style = picture.decoration_style();
-        let bar = |view: &View| {
-            place_scale_bar(&picture.decorations, &picture.scene, view, &style).unwrap()
-        };
-        assert!(bar(&picture.view_above(0.0).unwrap()).covered > 0);
+        let bar = |view: &View| picture.place_corners(view).bar.unwrap();
+        assert!(bar(&picture.view_above(0.0).unwrap().0).covered > 0);
         let view = picture.view().unwrap();
         assert_eq!(bar(&view).covered, 0);
         let bounds = view.world_bounds();
@@ -297,9 +311,7 @@ mod tests {
         picture.viewport.px_per_m = Some(20.0);
         let view = picture.view().unwrap();
         assert_eq!(view.px_per_m(), 20.0);
-        let style = picture.decoration_style();
-        let colors = (&*picture.scene, Shading::Color);
-        let legend = place_legend(&picture.decorations, colors, &view, &style);
+        let legend = picture.place_corners(&view).legend;
         assert_eq!(legend.unwrap().covered, 0);
     }
 
@@ -334,9 +346,7 @@ mod tests {
         picture.viewport.center_m = Some(Point::new(6.0, 4.0));
         picture.viewport.px_per_m = Some(40.0);
         let view = picture.view().unwrap();
-        let style = picture.decoration_style();
-        let colors = (&*picture.scene, Shading::Color);
-        let legend = place_legend(&picture.decorations, colors, &view, &style).unwrap();
+        let legend = picture.place_corners(&view).legend.unwrap();
         assert_eq!(
             (legend.corner, legend.covered > 0),
             (Corner::LowerRight, true)

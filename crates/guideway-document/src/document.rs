@@ -22,7 +22,8 @@ use crate::pick::{Hit, pick};
 #[derive(Debug)]
 pub struct Document {
     pub(crate) scene: Scene,
-    pub(crate) index: Index,
+    /// Shared until an edit changes it.
+    pub(crate) index: Arc<Index>,
     /// Shared with the undo steps, most of which do not change it.
     pub(crate) selection: Arc<Elements>,
     /// The level on which elements are drawn; with `None` their nodes decide.
@@ -52,9 +53,16 @@ impl Document {
 
     /// A document of a scene.
     pub fn from_scene(scene: Scene) -> Self {
+        let index = Arc::new(Index::of_scene(&scene));
+        Self::with_index(scene, index)
+    }
+
+    /// A document of a scene without edits, with the index of its layout: an index serves many
+    /// documents, and takes longer than all else of a document.
+    pub fn with_index(scene: Scene, index: Arc<Index>) -> Self {
         Self {
-            index: Index::of_scene(&scene),
             scene,
+            index,
             selection: Arc::default(),
             level: None,
             hidden_levels: PathSet::new(),
@@ -170,7 +178,7 @@ impl Document {
         reach_px: f64,
         max_candidates: usize,
     ) -> Option<Hit> {
-        let place = (&self.scene, &self.index);
+        let place = (&self.scene, &*self.index);
         pick(place, rule, px_per_m, at_m, reach_px, max_candidates)
     }
 

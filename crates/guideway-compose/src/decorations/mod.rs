@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `options` | | [`Decorations`]: the selection |
 //! | `title` | a text | draw list: one line at the top center |
-//! | `place_legend` | scene, view, selection | legend and scale bar in corners without paths |
+//! | `place_legend` | scene, view, selection | legend and scale bar in the emptiest corners |
 //! | `zones` | scene, view | draw list: outlines of zones with a tint |
 //! | `route` | scene, view, rows of paths | draw list: a band along a route, its ends marked |
 //! | `place` | scene, view, selection | draw lists that keep clear of each other |
@@ -20,5 +20,5 @@ mod zones;
 
 pub use options::Decorations;
 pub(crate) use place::{PlacedDecorations, place};
-pub(crate) use place_legend::{density_legend, place_legend, place_scale_bar};
+pub(crate) use place_legend::{PlacedCorners, density_legend, place_corners};
 pub use route::MarkedRoute;

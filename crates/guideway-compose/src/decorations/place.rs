@@ -1,14 +1,16 @@
 //! Places all decorations of a picture so that labels keep clear of legend, title and scale bar.
 
-use guideway_document::Document;
+use std::sync::Arc;
+
 use guideway_document::decorations::{
     Corner, DecorationStyle, Label, MarkOptions, MarkedKinds, Marks, grid, marks, scale_bar,
 };
+use guideway_document::{Document, Index};
 use guideway_scene::{DrawList, Scene, Shading, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use super::options::Decorations;
-use super::place_legend::{colors_of, place_legend, place_scale_bar};
+use super::place_legend::{colors_of, place_corners};
 use super::route;
 use super::title::title;
 use super::zones;
@@ -35,10 +37,11 @@ pub(crate) struct PlacedDecorations {
 
 /// Places the decorations of a scene in a view.
 ///
-/// Cost: marks need an index of the scene, linear in its paths; all else is bounded by the picture.
+/// Cost: marks need an index of the layout, which is built, linear in its paths, where there is
+/// none; all else is bounded by the picture.
 pub(crate) fn place(
     decorations: &Decorations,
-    scene: &Scene,
+    (scene, index): (&Scene, Option<&Arc<Index>>),
     view: &View,
     paths: &Style,
     style: &DecorationStyle,
@@ -51,7 +54,8 @@ pub(crate) fn place(
         occupied.push(bounds);
         placed.margin.push((list, "title"));
     }
-    match place_legend(decorations, (scene, paths.shading), view, style) {
+    let corners = place_corners(decorations, (scene, paths.shading), view, style);
+    match corners.legend {
         Some(placed_legend) => {
             occupied.push(placed_legend.bounds);
             let is_known = paths.shading == Shading::Color;
@@ -63,7 +67,7 @@ pub(crate) fn place(
             .push("the legend is larger than the picture, so it is only in this report".to_owned()),
         None => {}
     }
-    if let Some(bar) = place_scale_bar(decorations, scene, view, style) {
+    if let Some(bar) = corners.bar {
         occupied.push(bar.bounds);
         let mut list = DrawList::default();
         let paper = style.paper.with_opacity(PAPER_OPACITY);
@@ -81,7 +85,12 @@ pub(crate) fn place(
         placed.zones = zones::draw(scene, view, style);
     }
     if decorations.has_marks() {
-        let marks = visible_marks(decorations, scene, view, paths, style, &occupied);
+        let scene = scene.clone();
+        let document = match index {
+            Some(index) => Document::with_index(scene, Arc::clone(index)),
+            None => Document::from_scene(scene),
+        };
+        let marks = visible_marks(decorations, &document, view, paths, style, &occupied);
         if marks.left_out {
             placed.notes.push(
                 "the view holds too many nodes, stations or paths for marks; some are left out: \
@@ -102,23 +111,22 @@ pub(crate) fn place(
 /// The requested marks of a view, without those that the boxes `occupied` hide.
 fn visible_marks(
     decorations: &Decorations,
-    scene: &Scene,
+    document: &Document,
     view: &View,
     paths: &Style,
     style: &DecorationStyle,
     occupied: &[Bounds<f64>],
 ) -> Marks {
-    let document = Document::from_scene(scene.clone());
     let size = style.label_size();
     let options = MarkOptions {
         px_per_point: style.px_per_point,
         line_rule: paths.line_rule,
-        arrows: decorations.has_arrows && !scene.layout().is_drawing(),
+        arrows: decorations.has_arrows && !document.layout().is_drawing(),
         symbols: decorations.has_nodes || decorations.has_stations,
         labels: decorations.has_labels.then_some(size),
         of: MarkedKinds::default(),
     };
-    let mut marks = marks(&document, view, &options);
+    let mut marks = marks(document, view, &options);
     if !decorations.has_nodes {
         marks.nodes.clear();
     }
@@ -140,8 +148,6 @@ fn visible_marks(
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use guideway_layout::{Layout, NewPath};
     use guideway_scene::{FrameSize, SceneOptions};
     use guideway_spline::Runs;
@@ -163,11 +169,15 @@ mod tests {
     }
 
     fn placed(decorations: &Decorations) -> PlacedDecorations {
+        placed_by(decorations, None)
+    }
+
+    fn placed_by(decorations: &Decorations, index: Option<&Arc<Index>>) -> PlacedDecorations {
         let size = FrameSize::new(800, 600).unwrap();
         let view = View::new(size, Point::default(), 30.0).unwrap();
         let paths = Style::default();
         let style = DecorationStyle::for_picture(size, paths.background);
-        place(decorations, &scene(), &view, &paths, &style)
+        place(decorations, (&scene(), index), &view, &paths, &style)
     }
 
     #[test]
@@ -184,6 +194,17 @@ mod tests {
         assert_eq!(labels, ["title", "scale bar"]);
         let texts: Vec<_> = placed.marks.texts.iter().map(|t| t.text.as_str()).collect();
         assert_eq!(texts, ["upper", "lower"]);
+    }
+
+    #[test]
+    fn marks_are_found_by_the_index_that_is_given() {
+        let names = |index: Index| {
+            let placed = placed_by(&Decorations::site("Site"), Some(&Arc::new(index)));
+            placed.marks.texts.len()
+        };
+        assert_eq!(names(Index::new(scene().layout())), 2);
+        // The index of no paths: the scene was not indexed anew.
+        assert_eq!(names(Index::default()), 0);
     }
 
     #[test]

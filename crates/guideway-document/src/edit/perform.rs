@@ -199,7 +199,7 @@ impl Document {
     /// Drops the last rows of all tables, and gives their memory back.
     fn drop_rows(&mut self, rows: [usize; 3]) {
         self.scene.truncate(rows);
-        self.index = Index::of_scene(&self.scene);
+        self.index = Arc::new(Index::of_scene(&self.scene));
         let replaced = SceneChange::Replaced(&self.scene);
         self.observer.notify_change(replaced);
     }
@@ -270,7 +270,7 @@ impl Document {
             Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => paths,
             Edit::Restyle(_) | Edit::SetStates(_) | Edit::Insert(_) | Edit::Tables(_) => &[],
         };
-        self.index.update(changed, self.scene.layout());
+        Arc::make_mut(&mut self.index).update(changed, self.scene.layout());
         if let (Edit::Tables(edit), Edit::Tables(undo)) = (edit, &undo) {
             let is_of_values = matches!(
                 edit,
@@ -280,7 +280,7 @@ impl Document {
             );
             self.values_revision += u64::from(is_of_values);
             self.renumber_levels(edit);
-            self.index.update_tables(edit, undo, &self.scene);
+            Arc::make_mut(&mut self.index).update_tables(edit, undo, &self.scene);
         }
         Ok(undo)
     }

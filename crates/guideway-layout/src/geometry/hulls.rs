@@ -8,6 +8,9 @@ use rayon::prelude::*;
 
 use super::buffers::{Points, elements_of};
 
+/// Paths per task of a query: fewer are not worth a task.
+const TASK_PATHS: usize = 1 << 14;
+
 /// Bounding box of the control points of each path, in the precision of the points.
 ///
 /// The box contains the curve, because a B-spline lies in the convex hull of its control points.
@@ -109,6 +112,19 @@ impl Hulls {
         }
     }
 
+    /// The paths whose box meets one of `queries`, boxes in meters, in ascending order.
+    ///
+    /// Cost: O(paths * queries), without a look at any curve.
+    pub fn meeting(&self, queries: &[Bounds<f64>]) -> Vec<u32> {
+        if queries.is_empty() {
+            return Vec::new();
+        }
+        match &self.0 {
+            Boxes::F64(boxes) => meeting(boxes, queries),
+            Boxes::F32(boxes) => meeting(boxes, queries),
+        }
+    }
+
     /// Box of some paths, in meters; `None` if they have no points.
     ///
     /// # Panics
@@ -124,6 +140,23 @@ impl Hulls {
             Boxes::F32(boxes) => non_empty(union_of(boxes, paths)),
         }
     }
+}
+
+fn meeting<T: Real>(boxes: &[Bounds<T>], queries: &[Bounds<f64>]) -> Vec<u32> {
+    let meets = |of: &Bounds<T>| {
+        let of = Bounds {
+            min: of.min.to_f64(),
+            max: of.max.to_f64(),
+        };
+        queries.iter().any(|query| of.intersects(*query))
+    };
+    let chunks = boxes.par_chunks(TASK_PATHS).enumerate();
+    let chunks = chunks.flat_map_iter(|(chunk, boxes)| {
+        let rows = boxes.iter().zip(chunk * TASK_PATHS..);
+        let met = rows.filter(|(of, _)| meets(of));
+        met.map(|(_, row)| row as u32)
+    });
+    chunks.collect()
 }
 
 fn union_of_all<T: Real>(boxes: &[Bounds<T>]) -> Bounds<T> {

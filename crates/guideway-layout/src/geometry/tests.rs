@@ -264,3 +264,25 @@ fn paths_of_one_run_need_no_path_ends() {
     exchanged.replace_all(&[1, 0], &two);
     assert_eq!(shape(&exchanged), [both, first]);
 }
+
+#[test]
+fn paths_that_meet_one_of_some_boxes_are_found_in_order() {
+    // Points at x = 0 to 3, 4 to 12 and 13 to 18.
+    let narrow = points(0, 19).iter().map(|p| p.to_f32()).collect();
+    let narrow = Geometry::from_f32(narrow, vec![4, 9, 13, 19]).with_path_ends(vec![1, 3, 4]);
+    let query = |from: f64, to: f64, y: f64| Bounds {
+        min: Point::new(from, y),
+        max: Point::new(to, y + 0.5),
+    };
+    for geometry in [three(), narrow] {
+        let meeting = |queries: &[Bounds<f64>]| geometry.hulls().meeting(queries);
+        assert_eq!(meeting(&[query(12.0, 13.0, 0.2)]), [1, 2]);
+        assert_eq!(
+            meeting(&[query(18.0, 20.0, 0.0), query(0.0, 1.0, 0.5)]),
+            [0, 2]
+        );
+        assert_eq!(meeting(&[query(12.1, 12.9, 0.2)]), []);
+        assert_eq!(meeting(&[query(0.0, 20.0, 0.6)]), []);
+        assert_eq!(meeting(&[]), []);
+    }
+}
