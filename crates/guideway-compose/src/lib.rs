@@ -47,6 +47,7 @@
 
 mod backdrop;
 mod blend;
+mod center_lines;
 mod crowd;
 mod decorations;
 mod error;

@@ -3,7 +3,9 @@
 
 use guideway_layout::{Layout, PathRef};
 use guideway_scene::{LineRule, View};
-use guideway_spline::{Point, uniform};
+use guideway_spline::Point;
+
+use crate::center_lines::{PARTS, rows_of_part, walk};
 
 /// Shorter side of a picture whose lines have these widths, in pixels; larger ones have wider
 /// lines.
@@ -28,7 +30,7 @@ pub fn suitable_widths(layout: &Layout, view: &View, is_all_shown: bool) -> Line
     let px_per_point = (side_px / SIDE_PX).max(1.0);
     let min_px = match (layout.is_drawing(), is_all_shown) {
         (true, _) => HAIRLINE_PX,
-        (false, true) if is_crowded(layout, view, px_per_point) => FINEST_PX,
+        (false, true) if is_crowded(layout, view, px_per_point).0 => FINEST_PX,
         (false, true) => WAY_PX,
         (false, false) => return LineRule::default(),
     };
@@ -40,48 +42,85 @@ pub fn suitable_widths(layout: &Layout, view: &View, is_all_shown: bool) -> Line
     rule.scaled(px_per_point)
 }
 
-/// Returns `true` if many lines of two points would touch their neighbors.
+/// Returns `true` if many lines of two points would touch their neighbors, and the number of parts
+/// of the paths that this took.
 ///
-/// Cost: O(control points + points of the picture on paths).
-fn is_crowded(layout: &Layout, view: &View, px_per_point: f64) -> bool {
-    let size = view.size();
-    let [columns, rows] = [size.width(), size.height()]
-        .map(|side| ((f64::from(side) / px_per_point).ceil() as usize).div_ceil(CELL));
-    // A cell is a mask of its points: lines over each other count once.
-    let mut cells = vec![0_u64; columns * rows];
-    for path in layout.paths.iter() {
-        mark(path, view, px_per_point, |x, y| {
+/// Cost: O(control points + points of the picture on paths); of those of a part of the paths, if
+/// that part alone is enough.
+fn is_crowded(layout: &Layout, view: &View, px_per_point: f64) -> (bool, usize) {
+    let mut cells = Cells::new(view, px_per_point);
+    let most = MANY * cells.reach(layout, view) as f64;
+    for part in 0..PARTS {
+        for row in rows_of_part(layout.paths.len(), part).flatten() {
+            cells.mark(layout.paths.get(row), view);
+        }
+        // More paths add crowded points, and never more points than are within reach.
+        if cells.count()[1] as f64 > most {
+            return (true, part + 1);
+        }
+    }
+    let [all, crowded] = cells.count();
+    (crowded as f64 > MANY * all as f64, PARTS)
+}
+
+/// The points of a picture that are on center lines, by cell.
+struct Cells {
+    columns: usize,
+    rows: usize,
+    /// Points per pixel.
+    scale: f64,
+    /// A mask of the points of each cell: lines over each other count once.
+    masks: Vec<u64>,
+}
+
+impl Cells {
+    fn new(view: &View, px_per_point: f64) -> Self {
+        let size = view.size();
+        let [columns, rows] = [size.width(), size.height()]
+            .map(|side| ((f64::from(side) / px_per_point).ceil() as usize).div_ceil(CELL));
+        Self {
+            columns,
+            rows,
+            scale: 1.0 / px_per_point,
+            masks: vec![0; columns * rows],
+        }
+    }
+
+    /// Most points that the center lines of a layout may have in these cells.
+    fn reach(&self, layout: &Layout, view: &View) -> usize {
+        let Some(bounds) = layout.paths.hull_bounds() else {
+            return 0;
+        };
+        let corners = bounds
+            .corners()
+            .map(|p| view.pixel_from_world(p) * self.scale);
+        let points = |at: fn(&Point<f64>) -> f64, cells: usize| {
+            let least = corners.iter().map(at).fold(f64::INFINITY, f64::min);
+            let most = corners.iter().map(at).fold(f64::NEG_INFINITY, f64::max);
+            let end = (cells * CELL) as f64;
+            (most.ceil().clamp(0.0, end) - least.floor().clamp(0.0, end)) as usize + 1
+        };
+        points(|p| p.x, self.columns) * points(|p| p.y, self.rows)
+    }
+
+    fn mark(&mut self, path: PathRef<'_>, view: &View) {
+        let Self { columns, rows, .. } = *self;
+        walk(path, view, self.scale, |x, y| {
             let (column, row) = (x / CELL, y / CELL);
             if column < columns && row < rows {
-                cells[row * columns + column] |= 1 << (y % CELL * CELL + x % CELL);
+                self.masks[row * columns + column] |= 1 << (y % CELL * CELL + x % CELL);
             }
         });
     }
-    let (mut all, mut crowded) = (0_u64, 0_u64);
-    for points in cells.into_iter().map(u64::count_ones) {
-        all += u64::from(points);
-        crowded += u64::from(if points > CROWDED { points } else { 0 });
-    }
-    crowded as f64 > MANY * all as f64
-}
 
-/// Hands the points of a picture on a path to `at`, without those left of the picture or above it.
-fn mark(path: PathRef<'_>, view: &View, px_per_point: f64, mut at: impl FnMut(usize, usize)) {
-    /// Most steps of a segment: one across a wide picture.
-    const MOST: f64 = 4096.0;
-    for segment in path.runs().flat_map(|run| run.segments()) {
-        let corners = segment.map(|p| view.pixel_from_world(p) * (1.0 / px_per_point));
-        let reach = |a: Point<f64>, b: Point<f64>| a.distance(b);
-        let length = reach(corners[0], corners[1])
-            .max(reach(corners[1], corners[2]))
-            .max(reach(corners[2], corners[3]));
-        let steps = length.clamp(1.0, MOST).ceil();
-        for step in 0..steps as u32 {
-            let point = uniform::point(&corners, f64::from(step) / steps);
-            if point.x >= 0.0 && point.y >= 0.0 {
-                at(point.x as usize, point.y as usize);
-            }
+    /// Number of points on center lines, and of those in crowded cells.
+    fn count(&self) -> [u64; 2] {
+        let (mut all, mut crowded) = (0, 0);
+        for points in self.masks.iter().map(|mask| mask.count_ones()) {
+            all += u64::from(points);
+            crowded += u64::from(if points > CROWDED { points } else { 0 });
         }
+        [all, crowded]
     }
 }
 
@@ -130,6 +169,52 @@ mod tests {
             }
         }
         layout
+    }
+
+    /// This many short ways at random places of a square of 10 m.
+    fn scattered(count: u32) -> Layout {
+        let mut layout = Layout::default();
+        let mut state = 1_u64;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 40) as f64 / f64::from(1 << 24) * 10.0 - 5.0
+        };
+        for _ in 0..count {
+            let from = Point::new(next(), next());
+            let to = from + Point::new(next(), next()) * 0.02;
+            let mut runs = Runs::default();
+            runs.push_line(from, to);
+            layout.paths.push(&NewPath {
+                runs: &runs,
+                ..NewPath::default()
+            });
+        }
+        layout
+    }
+
+    #[test]
+    fn a_crowd_is_known_by_a_part_of_its_paths() {
+        let size = FrameSize::new(500, 500).unwrap();
+        let view = View::new(size, Point::new(0.0, 0.0), 50.0).unwrap();
+        let is_crowded = |count| is_crowded(&scattered(count), &view, 1.0);
+        let (dense, parts) = is_crowded(200_000);
+        assert!(dense && parts < 7, "{parts} parts");
+        assert_eq!(is_crowded(5_000), (false, PARTS));
+        // Whatever the number of parts, the answer is that of all paths.
+        for count in [20_000, 30_000, 40_000, 50_000, 60_000, 80_000] {
+            let layout = scattered(count);
+            let mut cells = Cells::new(&view, 1.0);
+            layout.paths.iter().for_each(|path| cells.mark(path, &view));
+            let [all, crowded] = cells.count();
+            let expected = crowded as f64 > MANY * all as f64;
+            assert_eq!(
+                super::is_crowded(&layout, &view, 1.0).0,
+                expected,
+                "{count}"
+            );
+        }
     }
 
     #[test]
