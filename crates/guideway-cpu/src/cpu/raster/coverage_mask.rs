@@ -13,7 +13,7 @@ use guideway_spline::Point;
 
 use super::bits::{
     MAX_WINDOW_PX, SampleBlock, WINDOW_COLUMNS, full_pixels, high_bits, low_bits, pixel_counts,
-    set_bits,
+    set_bits, window_bits,
 };
 use super::capsule::RowSpans;
 use crate::cpu::ground::samples::{ROWS, SOLID};
@@ -260,8 +260,14 @@ impl<const C: usize> CoverageMask<C> {
     #[inline(always)]
     fn open_windows(&self, row: usize, pixels: u32) -> Option<Range<usize>> {
         let open = self.open_pixels[row % TILE_PX] & pixels;
-        let end = C - open.leading_zeros() as usize / Self::WINDOW_PX;
-        (open != 0).then_some(open.trailing_zeros() as usize / Self::WINDOW_PX..end)
+        (open != 0).then_some(Self::windows_of(open))
+    }
+
+    /// The windows from the first to the last one of some columns of pixels, one bit each.
+    #[inline(always)]
+    fn windows_of(pixels: u32) -> Range<usize> {
+        let end = C - pixels.leading_zeros() as usize / Self::WINDOW_PX;
+        (pixels.trailing_zeros() as usize / Self::WINDOW_PX).min(end)..end
     }
 
     /// Adds the coverage of some windows of a row.
@@ -277,8 +283,9 @@ impl<const C: usize> CoverageMask<C> {
         let left = (window * WINDOW_COLUMNS) as u32;
         let block = &mut self.shape[window][row];
         let mut all = u32::MAX;
-        for ((word, &first), &end) in block.iter_mut().zip(&spans.first).zip(&spans.end) {
-            *word |= high_bits(first.max(left) - left) ^ high_bits(end.max(left) - left);
+        let fresh = window_bits(&spans.first, &spans.end, left);
+        for (word, new) in block.iter_mut().zip(fresh) {
+            *word |= new;
             all &= *word;
         }
         self.touched[window] |= 1 << row;
@@ -327,16 +334,51 @@ impl<const C: usize> CoverageMask<C> {
         }
     }
 
-    /// Adds `halves` per sample of the shape to the `counts` of pixels, and starts a new shape.
+    /// Adds `halves` per sample of the shape to the `counts` of pixels, and starts a new shape. The
+    /// shape may touch the columns of `pixels`, one bit each.
     #[inline(always)]
-    pub(crate) fn count(&mut self, halves: i32, counts: &mut SampleHalves) {
-        for window in 0..C {
+    pub(crate) fn count(&mut self, halves: i32, pixels: u32, counts: &mut SampleHalves) {
+        for window in Self::windows_of(pixels) {
             for row in set_bits(std::mem::take(&mut self.touched[window])) {
                 let shape = std::mem::take(&mut self.shape[window][row]);
                 let counts = &mut counts[row][window * Self::WINDOW_PX..];
                 let fresh = pixel_counts::<C>(&shape);
                 for (count, n) in counts.iter_mut().zip(fresh).take(Self::WINDOW_PX) {
                     *count += halves * i32::from(n);
+                }
+            }
+        }
+    }
+
+    /// Adds `halves` per sample of a part of a stroke to the `counts` of pixels, as if it were a
+    /// shape by itself, without the mask.
+    #[inline(always)]
+    pub(crate) fn count_stroke(
+        &self,
+        stroke: &impl RowCoverage,
+        part: PixelBox,
+        halves: i32,
+        counts: &mut SampleHalves,
+    ) {
+        let PixelBox { rows, pixels } = part;
+        let is_wide = pixels.count_ones() > stroke.width_px().saturating_add(WIDE_PX);
+        for row in set_bits(rows) {
+            let pixels = if is_wide {
+                pixels & stroke.pixels(row)
+            } else {
+                pixels
+            };
+            if let Some(windows) = self.open_windows(row, pixels) {
+                let spans = stroke.spans(row);
+                let pixels = windows.start * Self::WINDOW_PX..windows.end * Self::WINDOW_PX;
+                for pixel in pixels {
+                    let left = (pixel * C) as u32;
+                    let right = left + C as u32;
+                    let mut samples = 0;
+                    for (&first, &end) in spans.first.iter().zip(&spans.end) {
+                        samples += end.max(left).min(right) - first.max(left).min(right);
+                    }
+                    counts[row % TILE_PX][pixel % TILE_PX] += halves * samples as i32;
                 }
             }
         }

@@ -2,7 +2,6 @@
 //! a time, adds them to the shape of their path, and composites the shape below those before it.
 
 use guideway_scene::Rgba;
-use guideway_scene::density::open_ends;
 use guideway_spline::Point;
 
 use super::bits::set_bits;
@@ -15,7 +14,7 @@ use crate::cpu::flatten::cluster_lines::ClusterLines;
 use crate::cpu::flatten::polylines::{Coordinate, bits_below};
 use crate::cpu::flatten::tile_lines::TileLines;
 use crate::cpu::ground::samples::{LAYERED, columns};
-use crate::cpu::ground::tile::{LANES, SampleHalves};
+use crate::cpu::ground::tile::LANES;
 
 /// Strokes of one opaque color per shape. Compositing a shape detects full tiles, so smaller shapes
 /// detect them earlier.
@@ -25,16 +24,8 @@ const STROKES_PER_SHAPE: usize = 32;
 #[derive(Clone, Copy, PartialEq)]
 struct Layer {
     color: Rgba,
-    /// The only stroke of the shape; `None` if several paths of one opaque color share it.
-    alone: Option<Stroke>,
-}
-
-/// The path of a waiting line.
-#[derive(Clone, Copy, Default, PartialEq)]
-struct Stroke {
-    path: u32,
-    /// The end of the path around which the line, a point, takes half a count back.
-    end: Option<u8>,
+    /// The only path of the shape; `None` if several paths of one opaque color share it.
+    alone: Option<u32>,
 }
 
 /// A tile that is being drawn, and the lines that wait for a full batch.
@@ -43,13 +34,9 @@ pub(crate) struct LayeredTile<'a> {
     tile: &'a Tile,
     mask: &'a mut CoverageMask<LAYERED>,
     cap_tables: &'a mut CapTables<LAYERED>,
-    /// Counts, if shapes are counted instead of composited.
-    counts: Option<&'a mut SampleHalves>,
-    /// The path that is counted, and the key of its cluster.
-    counted: Option<(u32, u32)>,
     x: [[f32; LANES]; 2],
     y: [[f32; LANES]; 2],
-    strokes_of: [Stroke; LANES],
+    paths: [u32; LANES],
     len: usize,
     /// Half the stroke width of all these lines, in columns.
     radius: f32,
@@ -65,18 +52,15 @@ impl<'a> LayeredTile<'a> {
         tile: &'a Tile,
         mask: &'a mut CoverageMask<LAYERED>,
         cap_tables: &'a mut CapTables<LAYERED>,
-        counts: Option<&'a mut SampleHalves>,
     ) -> Self {
         Self {
             job,
             tile,
             mask,
             cap_tables,
-            counts,
-            counted: None,
             x: [[0.0; LANES]; 2],
             y: [[0.0; LANES]; 2],
-            strokes_of: [Stroke::default(); LANES],
+            paths: [0; LANES],
             len: 0,
             radius: 0.0,
             layer: None,
@@ -101,7 +85,6 @@ impl<'a> LayeredTile<'a> {
             ClusterLines::Clipped(lines) => cluster.path(lines.member(piece)),
             ClusterLines::None => return,
         };
-        self.count_path(Some((path, key)));
         match cluster.lines() {
             ClusterLines::Cached(unit_m, lines) => {
                 self.add_piece(&cluster.map_cached(*unit_m, lines), piece, path);
@@ -130,9 +113,8 @@ impl<'a> LayeredTile<'a> {
             return;
         }
         self.choose_radius(radius);
-        let stroke = Stroke { path, end: None };
         for vertex in mapped.lines.line_starts(piece..piece + 1) {
-            self.add_line(mapped.vertex(vertex), mapped.vertex(vertex + 1), stroke);
+            self.add_line(mapped.vertex(vertex), mapped.vertex(vertex + 1), path);
         }
     }
 
@@ -152,36 +134,15 @@ impl<'a> LayeredTile<'a> {
     }
 
     #[inline(always)]
-    fn add_line(&mut self, start: Point<f32>, end: Point<f32>, stroke: Stroke) {
+    fn add_line(&mut self, start: Point<f32>, end: Point<f32>, path: u32) {
         self.x[0][self.len] = start.x;
         self.x[1][self.len] = end.x;
         self.y[0][self.len] = start.y;
         self.y[1][self.len] = end.y;
-        self.strokes_of[self.len] = stroke;
+        self.paths[self.len] = path;
         self.len += 1;
         if self.len == LANES {
             self.flush();
-        }
-    }
-
-    /// Begins to count a path, if paths are counted. The one before counts half at its ends.
-    #[inline(always)]
-    fn count_path(&mut self, path_and_key: Option<(u32, u32)>) {
-        if self.counts.is_none() || self.counted == path_and_key {
-            return;
-        }
-        let Some((path, key)) = std::mem::replace(&mut self.counted, path_and_key) else {
-            return;
-        };
-        let radius = self.radius_of(path);
-        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, key);
-        let ends = open_ends(self.job.ctx.scene.layout().paths.get(path as usize));
-        for (at_m, end) in ends.into_iter().flatten().zip(0..) {
-            let at_px = cluster.shown_px(at_m);
-            let at = Point::new(columns::<LAYERED>(at_px.x), columns::<LAYERED>(at_px.y));
-            self.choose_radius(radius);
-            let end = Some(end);
-            self.add_line(at, at, Stroke { path, end });
         }
     }
 
@@ -199,21 +160,21 @@ impl<'a> LayeredTile<'a> {
         let slopes = batch.slopes();
         for lane in set_bits(visible) {
             let lane = lane % LANES;
-            self.choose_layer(self.strokes_of[lane]);
+            self.choose_layer(self.paths[lane]);
             let caps = self.cap_tables.of(self.radius);
             let pixel_box = boxes.pixel_box(lane, &open);
             batch.stroke(lane, &slopes, pixel_box, self.mask, caps);
         }
     }
 
-    /// Starts a new shape unless `stroke` belongs to the one in the mask.
+    /// Starts a new shape unless `path` belongs to the one in the mask.
     #[inline(always)]
-    fn choose_layer(&mut self, stroke: Stroke) {
-        let color = self.job.ctx.scene.color(stroke.path);
-        let is_shared = color.is_opaque() && self.counts.is_none();
+    fn choose_layer(&mut self, path: u32) {
+        let color = self.job.ctx.scene.color(path);
+        let is_shared = color.is_opaque();
         let layer = Layer {
             color,
-            alone: (!is_shared).then_some(stroke),
+            alone: (!is_shared).then_some(path),
         };
         if self.layer != Some(layer) || (is_shared && self.strokes == STROKES_PER_SHAPE) {
             self.end_shape();
@@ -222,17 +183,11 @@ impl<'a> LayeredTile<'a> {
         self.strokes += 1;
     }
 
-    /// Composites or counts the shape in the mask.
+    /// Composites the shape in the mask.
     #[inline(always)]
     fn end_shape(&mut self) {
         if let Some(layer) = self.layer.take() {
-            match &mut self.counts {
-                Some(counts) => {
-                    let is_end = layer.alone.is_some_and(|stroke| stroke.end.is_some());
-                    self.mask.count(if is_end { -1 } else { 2 }, counts);
-                }
-                None => self.mask.composite(layer.color),
-            }
+            self.mask.composite(layer.color);
         }
         self.strokes = 0;
     }
@@ -240,7 +195,6 @@ impl<'a> LayeredTile<'a> {
     /// Draws the lines that remain.
     #[inline(always)]
     pub(crate) fn finish(mut self) {
-        self.count_path(None);
         self.flush();
         self.end_shape();
     }

@@ -133,8 +133,9 @@ impl<const C: usize> LineBatch<C> {
         mask.stroke(&(&self.capsule(slopes, lane), caps), pixel_box);
     }
 
+    /// The capsule around one line.
     #[inline(always)]
-    fn capsule(&self, slopes: &LineSlopes, lane: usize) -> Capsule {
+    pub(crate) fn capsule(&self, slopes: &LineSlopes, lane: usize) -> Capsule {
         Capsule {
             x: self.x.map(|x| x[lane]),
             y: self.y.map(|y| y[lane]),

@@ -7,8 +7,10 @@
 //! | `job`                         | data that the tiles of a band share; the tile to draw    |
 //! | `cluster_in_tile`             | the lines of one cluster relative to a tile              |
 //! | `layered`                     | several colors: strokes by descending draw rank          |
+//! | `counted`                     | densities: the samples of each path, counted once        |
 //! | `line_batch`                  | 16 lines side by side: boxes, slopes, capsules           |
 //! | `capsule`, `caps`             | sample spans of one stroke; tables of its round caps     |
+//! | `disc`                        | sample spans around the end of a path                    |
 //! | `fixed_point`                 | the same three in 16-bit integers                        |
 //! | `coverage_mask`, `bits`       | the samples of a tile as bits                            |
 //! | `resolve`, `background`       | coverage to RGBA                                         |
@@ -20,7 +22,9 @@ pub(super) mod bits;
 pub(super) mod caps;
 pub(super) mod capsule;
 pub(super) mod cluster_in_tile;
+pub(super) mod counted;
 pub(super) mod coverage_mask;
+pub(super) mod disc;
 pub(super) mod fixed_point;
 pub(super) mod full_pixel_cache;
 pub(super) mod job;

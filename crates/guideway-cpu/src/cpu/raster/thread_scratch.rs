@@ -2,6 +2,7 @@
 
 use super::caps::CapTables;
 use super::cluster_in_tile::PieceRef;
+use super::counted::PathEnd;
 use super::coverage_mask::CoverageMask;
 use crate::cpu::ground::samples::{LAYERED, SOLID};
 use crate::cpu::ground::tile::{SampleHalves, TILE_PX};
@@ -15,6 +16,8 @@ pub(crate) struct ThreadScratch {
     /// Pieces that may touch the tile.
     pub(crate) pieces: Vec<PieceRef>,
     pub(crate) counts: Box<SampleHalves>,
+    /// Ends of paths that are to be counted.
+    pub(crate) ends: Vec<PathEnd>,
     /// Keys of the clusters that may touch the tile.
     pub(crate) clusters: Vec<u32>,
 }
@@ -28,6 +31,7 @@ impl ThreadScratch {
             caps: CapTables::default(),
             pieces: Vec::new(),
             counts: Box::new([[0; TILE_PX]; TILE_PX]),
+            ends: Vec::new(),
             clusters: Vec::new(),
         }
     }
@@ -42,6 +46,7 @@ impl ThreadScratch {
     /// Heap bytes of the lists of a tile.
     pub(crate) fn list_bytes(&self) -> u64 {
         let clusters = self.clusters.capacity() * size_of::<u32>();
-        (self.pieces.capacity() * size_of::<PieceRef>() + clusters) as u64
+        let ends = self.ends.capacity() * size_of::<PathEnd>();
+        (self.pieces.capacity() * size_of::<PieceRef>() + clusters + ends) as u64
     }
 }

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::background::{Background, solid_ramp};
 use super::cluster_in_tile::{ClusterInTile, DrawRange, prefetch_next};
+use super::counted::CountedTile;
 use super::job::{BandJob, BandProbe, Tile};
 use super::layered::LayeredTile;
 use super::resolve::ResolveSource;
@@ -332,7 +333,7 @@ fn cover_layers(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile) {
     for line_range in job.lists.line_ranges(tile.index).flatten() {
         ClusterInTile::<LAYERED>::new(job, tile, line_range.key).add_piece(line_range, pieces);
     }
-    let mut layers = LayeredTile::new(job, tile, mask, cap_tables, None);
+    let mut layers = LayeredTile::new(job, tile, mask, cap_tables);
     let mut below = &mut pieces[..];
     let mut count = FIRST_SORTED;
     while !below.is_empty() && !layers.is_full() {
@@ -358,30 +359,25 @@ fn count_layers(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile) {
         caps: cap_tables,
         pieces,
         counts,
+        ends,
         clusters,
         ..
     } = scratch;
     mask.begin_layers(tile.width_px, tile.height_px);
-    **counts = [[0; TILE_PX]; TILE_PX];
-    let mut layers = LayeredTile::new(job, tile, mask, cap_tables, Some(counts));
-    pieces.clear();
+    let mut counted = CountedTile::new(job, tile, mask, cap_tables, counts, ends);
     for (i, &key) in clusters.iter().enumerate() {
         prefetch_next(job, clusters, i);
+        pieces.clear();
         ClusterInTile::<LAYERED>::new(job, tile, key).collect_pieces(key, pieces);
         // Runs of a path may lie apart, but its samples are to count once.
         pieces.sort_unstable_by_key(|piece| piece.rank);
-        // A loop: a closure would be compiled for the baseline.
-        for piece in pieces.iter() {
-            layers.add(piece);
-        }
-        pieces.clear();
+        counted.add(pieces);
     }
+    pieces.clear();
     for line_range in job.lists.line_ranges(tile.index).flatten() {
         ClusterInTile::<LAYERED>::new(job, tile, line_range.key).add_piece(line_range, pieces);
     }
     pieces.sort_unstable_by_key(|piece| piece.rank);
-    for piece in pieces.iter() {
-        layers.add(piece);
-    }
-    layers.finish();
+    counted.add(pieces);
+    counted.finish();
 }

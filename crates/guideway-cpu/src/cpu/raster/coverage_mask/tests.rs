@@ -4,7 +4,7 @@ use super::*;
 use crate::cpu::ground::samples::LAYERED;
 use crate::cpu::raster::background::Background;
 use crate::cpu::raster::caps::CapTable;
-use crate::cpu::raster::line_batch::level_capsule;
+use crate::cpu::raster::line_batch::{capsule, level_capsule};
 use crate::cpu::raster::resolve::resolve_layered_row;
 
 type LayeredMask = CoverageMask<LAYERED>;
@@ -53,6 +53,30 @@ fn counts_samples_per_pixel() {
     assert_eq!(pixel_counts::<LAYERED>(&block)[..2], [11, 2]);
     assert_eq!(pixel_counts::<SOLID>(&[u32::MAX; ROWS]), [128; 4]);
     assert_eq!(pixel_counts::<LAYERED>(&[u32::MAX; ROWS])[..2], [256; 2]);
+}
+
+#[test]
+fn a_stroke_by_itself_counts_as_its_shape_in_the_mask() {
+    let mut caps = CapTable::<LAYERED>::default();
+    for (i, radius) in [4.8, 17.0, 200.0].into_iter().enumerate() {
+        caps.resize(radius);
+        for step in 0..60 {
+            let at = |of: usize| (step * of % 700) as f32 - 90.0 + i as f32 / 3.0;
+            let capsule = capsule::<LAYERED>([at(37), at(53)], [at(91), at(17)], radius);
+            let part = PixelBox {
+                rows: [u32::MAX, 0x00ff_ff00][step % 2],
+                pixels: [u32::MAX, 0x000f_fff8, 0x0180_0000][step % 3],
+            };
+            let mut mask = LayeredMask::new();
+            mask.begin_layers(27, 30);
+            let mut counts = [[[1; TILE_PX]; TILE_PX]; 2];
+            mask.count_stroke(&(&capsule, &caps), part, 2, &mut counts[0]);
+            mask.stroke(&(&capsule, &caps), part);
+            mask.count(2, part.pixels, &mut counts[1]);
+            assert!(counts[0] == counts[1], "{capsule:?}, {radius}, {step}");
+            assert!(mask.touched == [0; LAYERED], "a new shape begins");
+        }
+    }
 }
 
 #[test]
