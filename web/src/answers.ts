@@ -11,7 +11,6 @@ export interface Info {
   nodes: number;
   stations: number;
   refused: number;
-  lengthM: number;
   bounds: Box | null;
   levels: { id: string; name: string }[];
   vehicleTypes: string[];

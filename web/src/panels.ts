@@ -137,7 +137,7 @@ export class Panels {
       [t("paths"), count(info.paths)],
       [t("nodes"), count(info.nodes)],
       [t("stations"), count(info.stations)],
-      [t("length"), meters(info.lengthM)],
+      [t("length"), ""],
       [t("size"), `${meters(maxX - minX)} × ${meters(maxY - minY)}`],
     ];
     if (info.vehicleTypes.length) facts.push([t("vehicle types"), info.vehicleTypes.join(", ")]);
@@ -155,6 +155,13 @@ export class Panels {
     for (const target of info.targets) {
       item(byId("targets"), target.name, "", () => this.ontarget(target));
     }
+  }
+
+  /** The length of all paths, which is known after all else. */
+  showLength(lengthM: number): void {
+    const terms = [...byId("facts").querySelectorAll("dt")];
+    const value = terms.find((term) => term.textContent === t("length"))?.nextElementSibling;
+    if (value) value.textContent = meters(lengthM);
   }
 
   showElement(element: Details | undefined): void {

@@ -57,6 +57,7 @@ const calls: Record<string, (...args: never[]) => unknown> = {
     return { width: look.width, height: look.height, rgba, report };
   },
   memory: () => memory.buffer.byteLength,
+  length: (first: number, most: number) => opened().length_m(first, most),
   check: (most: number) => JSON.parse(opened().check(most)),
   hit: (x: number, y: number, reach: number) => JSON.parse(opened().hit(x, y, reach)),
   element: (kind: string, row: number) => JSON.parse(opened().element(kind, row)),

@@ -119,6 +119,9 @@ async function handsAndKeysWork() {
   await load(page, site);
   const status = () => document.querySelector("#status").textContent;
   await page.waitForFunction(`/326 \\/ 326/.test((${status})())`);
+  const facts = () => document.querySelector("#facts").textContent;
+  // The length follows the picture.
+  await page.waitForFunction(`/length[\\d., ]*\\d k?m/.test((${facts})())`);
   await page.click("[data-tab=view]");
   const settle = async (act) => {
     const drawn = await page.evaluate(() => guideway.map.drawn);

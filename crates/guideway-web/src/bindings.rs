@@ -59,6 +59,11 @@ impl JsSession {
         self.0.info()
     }
 
+    /// See [`Session::length_m`].
+    pub fn length_m(&self, first: usize, count: usize) -> f64 {
+        self.0.length_m(first, count)
+    }
+
     /// See [`Session::check`].
     pub fn check(&self, most: usize) -> String {
         self.0.check(most)

@@ -2,12 +2,10 @@
 
 use std::sync::Arc;
 
-use guideway::compose::{Decorations, MarkedRoute, Picture, Viewport, suitable_widths};
+use guideway::compose::{Decorations, MarkedRoute, Picture, Viewport};
 use guideway::layout::UserError;
 use guideway::scene::density::ToneMap;
-use guideway::scene::{
-    ColorBy, FrameSize, NumberColors, RenderError, Rgba, Scene, SceneOptions, Shading,
-};
+use guideway::scene::{ColorBy, FrameSize, NumberColors, Rgba, Scene, SceneOptions, Shading};
 use guideway::spline::Point;
 use serde::Deserialize;
 
@@ -93,19 +91,24 @@ impl Look {
         }
     }
 
-    /// The picture of a scene.
+    /// Size and view, as far as they are asked for.
+    pub(crate) fn viewport(&self) -> Result<Viewport, UserError> {
+        Ok(Viewport {
+            size: FrameSize::new(self.width, self.height)?,
+            center_m: self.center.map(|[x, y]| Point::new(x, y)),
+            px_per_m: self.px_per_m,
+        })
+    }
+
+    /// The picture of a scene, without the widths of its lines.
     pub(crate) fn picture(
         &self,
         scene: Arc<Scene>,
         route: Option<MarkedRoute>,
     ) -> Result<Picture, UserError> {
-        let size = FrameSize::new(self.width, self.height)?;
-        let mut picture = Picture::new(scene, size);
-        picture.viewport = Viewport {
-            size,
-            center_m: self.center.map(|[x, y]| Point::new(x, y)),
-            px_per_m: self.px_per_m,
-        };
+        let viewport = self.viewport()?;
+        let mut picture = Picture::new(scene, viewport.size);
+        picture.viewport = viewport;
         picture.style.background = rgba(self.background.as_deref(), Rgba::WHITE)?;
         if self.shade == Shade::Density {
             picture.style.shading = Shading::Density(ToneMap::Log);
@@ -123,16 +126,12 @@ impl Look {
             title: self.title.clone(),
             px_per_point: self.px_per_point,
         };
-        self.suit_widths(&mut picture)?;
         Ok(picture)
     }
 
-    /// Suits the widths of lines to what the picture shows.
-    fn suit_widths(&self, picture: &mut Picture) -> Result<(), RenderError> {
-        let is_all_shown = self.px_per_m.is_none();
-        let layout = picture.scene.layout();
-        picture.style.line_rule = suitable_widths(layout, &picture.view()?, is_all_shown);
-        Ok(())
+    /// Returns `true` if the picture shows marks, which an index finds.
+    pub(crate) fn has_marks(&self) -> bool {
+        self.arrows || self.nodes || self.stations || self.labels
     }
 }
 

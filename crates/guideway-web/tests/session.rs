@@ -73,6 +73,55 @@ fn picture_is_that_of_the_compositor_also_after_another_view() {
 }
 
 #[test]
+fn length_is_left_to_calls_of_its_own() {
+    let session = site();
+    let info = parsed(&session.info());
+    assert_eq!((&info["paths"], info.get("lengthM")), (&json!(326), None));
+    let layout = read_bytes("site", &bytes(SITE), &ReadOptions::default()).unwrap();
+    let whole = guideway::json::info(&layout)["lengthM"].as_f64().unwrap();
+    let parts = [(0, 100), (100, 200), (300, 100), (400, 100)];
+    let parts = parts.map(|(first, count)| session.length_m(first, count));
+    assert!(parts[0] > 0.0 && parts[2] > 0.0 && parts[3] == 0.0);
+    assert!((parts.iter().sum::<f64>() - whole).abs() < 1e-9 * whole);
+}
+
+#[test]
+fn fitted_pictures_are_those_of_the_compositor() {
+    let look = json!({
+        "width": 640, "height": 400, "shade": "auto", "colorBy": "maxSpeed",
+        "legend": true, "scaleBar": true, "arrows": true, "labels": true, "nodes": true,
+    });
+    let mut session = site();
+    session.render(&look.to_string()).unwrap();
+    let again = session.render(&look.to_string()).unwrap();
+
+    let layout = read_bytes("site", &bytes(SITE), &ReadOptions::default()).unwrap();
+    let options = SceneOptions {
+        color_by: Some(guideway::scene::ColorBy {
+            column: "maxSpeed".into(),
+        }),
+        has_gray_structure: true,
+        ..SceneOptions::default()
+    };
+    let scene = Scene::new(Arc::new(layout), &options).unwrap();
+    let mut picture = Picture::new(Arc::new(scene), FrameSize::new(640, 400).unwrap());
+    picture.decorations = Decorations {
+        has_zones: true,
+        has_arrows: true,
+        has_nodes: true,
+        has_labels: true,
+        has_scale_bar: true,
+        has_legend: true,
+        ..Decorations::default()
+    };
+    let view = picture.view().unwrap();
+    let layout = picture.scene.layout();
+    picture.style.line_rule = guideway::compose::suitable_widths(layout, &view, true);
+    let (frame, _) = picture.render_frame(&Cpu, &NoProgress).unwrap();
+    assert!(again.rgba == frame.bytes(), "the pixels differ");
+}
+
+#[test]
 fn refused_files_are_refused_in_the_words_of_the_command() {
     let refused = |bytes: &[u8]| -> [UserError; 2] {
         let error = |of: Result<(), UserError>| of.unwrap_err();
