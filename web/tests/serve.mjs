@@ -17,6 +17,15 @@ export async function serve(folder) {
       return;
     }
     const type = TYPES[extname(file)] ?? "application/octet-stream";
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
+    if (range) {
+      const [start, end] = [Number(range[1]), Math.min(Number(range[2]), stat.size - 1)];
+      const part = `bytes ${start}-${end}/${stat.size}`;
+      const head = { "content-length": end - start + 1, "content-range": part };
+      response.writeHead(206, { "content-type": type, ...head });
+      createReadStream(file, { start, end }).pipe(response);
+      return;
+    }
     response.writeHead(200, { "content-type": type, "content-length": stat.size });
     createReadStream(file).pipe(response);
   });
