@@ -11,7 +11,7 @@ use super::state::App;
 use crate::action::{Action, Export};
 use crate::command::Command;
 use crate::export::{PictureContent, png_picture};
-use crate::files::{NewLayout, WriteOutcome};
+use crate::files::{NewLayout, WriteOutcome, WriteTarget};
 use crate::language::{say, t};
 use crate::panels::dialogs::{Question, Risk};
 use crate::services::{Job, PictureRequest};
@@ -70,9 +70,6 @@ impl App {
 
     /// Writes the canvas as a picture; asks before it replaces a file.
     pub(super) fn export_as(&mut self, export: Export) {
-        if self.context.services.file_stamp(export.path()).is_none() {
-            return self.export(export);
-        }
         let again = match export {
             Export::Png { .. } => Command::ExportPng,
             Export::Vector { format, .. } => match format {
@@ -80,43 +77,50 @@ impl App {
                 VectorFormat::Pdf => Command::ExportPdf,
             },
         };
-        self.dialogs.confirm.ask(Question {
+        let question = Question {
             file: export.path().to_owned(),
             risk: Risk::ReplacesFile(again),
-            confirmed: Action::ExportOver(export),
-        });
+            confirmed: Action::ExportOver(export.clone()),
+        };
+        self.start_export(export, Some(question));
     }
 
-    /// Writes the canvas as a picture.
+    /// Writes the canvas as a picture, over what is there.
     pub(super) fn export(&mut self, export: Export) {
+        self.start_export(export, None);
+    }
+
+    /// Starts to write the canvas as a picture. With a question, the write asks it if a file is
+    /// there.
+    fn start_export(&mut self, export: Export, question: Option<Question>) {
         let Some(picture) = self.picture() else {
             return;
         };
         if self.is_writer_busy() {
             return;
         }
+        let asks = question.is_some();
+        self.question_of_write = question;
         let services = Arc::clone(&self.context.services);
-        let repaint = &self.context.repaint;
-        match export {
-            Export::Png { path, width_px } => {
-                let job = Arc::<Job>::default();
-                let (watched, method) = (Arc::clone(&job), self.method());
-                let write = move || {
-                    let text =
-                        png_picture(picture, width_px, &method, &*services, &watched, &path)?;
-                    Ok(WriteOutcome::Written(text))
-                };
-                self.writer.start(None, Some(job), repaint, write);
+        let (method, repaint) = (self.method(), &self.context.repaint);
+        let job = matches!(export, Export::Png { .. }).then(Arc::<Job>::default);
+        let watched = job.clone().unwrap_or_default();
+        let write = move || {
+            if asks && services.file_stamp(export.path()).is_some() {
+                return Ok(WriteOutcome::Exists);
             }
-            Export::Vector { path, format } => {
-                let write = move || {
+            let text = match export {
+                Export::Png { path, width_px } => {
+                    png_picture(picture, width_px, &method, &*services, &watched, &path)?
+                }
+                Export::Vector { path, format } => {
                     services.export_vector(&picture, format, &path)?;
-                    let text = say!("Wrote {path}", path = shown_path(&path));
-                    Ok(WriteOutcome::Written(text))
-                };
-                self.writer.start(None, None, repaint, write);
-            }
-        }
+                    say!("Wrote {path}", path = shown_path(&path))
+                }
+            };
+            Ok(WriteOutcome::Written(text))
+        };
+        self.writer.start(WriteTarget::Picture, job, repaint, write);
     }
 
     /// Copies the canvas to the clipboard.

@@ -1,6 +1,5 @@
 //! One frame: takes the results of background threads, shows all parts, and routes their actions.
 
-use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
@@ -101,10 +100,9 @@ impl App {
         });
         let actions = self.show_floor_plan_window(&ctx);
         self.apply_all(actions, &ctx);
-        let services = Arc::clone(&self.context.services);
         let canvas = self.canvas.screen().rect;
         let dialogs = &mut self.dialogs;
-        let mut actions = dialogs.show(&ctx, &self.files, &*services, canvas);
+        let mut actions = dialogs.show(&ctx, &self.files, &self.context, canvas);
         actions.extend(dialogs.settings.show(&ctx, &mut self.settings));
         dialogs.about.show(&ctx, &self.adapter, self.methods.name());
         self.apply_all(actions, &ctx);

@@ -13,7 +13,7 @@ use crate::command::Command;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
-use crate::files::LayerContext;
+use crate::files::{LayerContext, WriteOutcome, WriteTarget};
 use crate::language::{say, t};
 use crate::panels::dialogs::{Question, Risk};
 use crate::project::{
@@ -32,28 +32,46 @@ impl App {
     /// Saves the project under this name; asks before it replaces a file.
     pub(super) fn save_project_as(&mut self, path: PathBuf) {
         let path = with_suffix(path);
-        if self.context.services.file_stamp(&path).is_none() {
-            return self.save_project(path);
-        }
-        self.dialogs.confirm.ask(Question {
+        let question = Question {
             file: path.clone(),
             risk: Risk::ReplacesFile(Command::SaveProject),
-            confirmed: Action::SaveProjectOver(path),
-        });
+            confirmed: Action::SaveProjectOver(path.clone()),
+        };
+        self.start_project_save(path, Some(question));
     }
 
-    /// Saves the project under this name.
+    /// Saves the project under this name, over what is there.
     pub(super) fn save_project(&mut self, path: PathBuf) {
-        let text = self.project_of(&path).and_then(|project| project.text());
-        let written = text.and_then(|text| {
-            let written = self.context.services.write_project(&path, &text);
-            written.map_err(|error| error.to_string())
-        });
-        let notices = &mut self.dialogs.notices;
-        if let Err(error) = written {
-            return notices.add(error);
+        self.start_project_save(path, None);
+    }
+
+    /// Starts to save the project. With a question, the save asks it if a file is there.
+    fn start_project_save(&mut self, path: PathBuf, question: Option<Question>) {
+        let text = match self.project_of(&path).and_then(|project| project.text()) {
+            Ok(text) => text,
+            Err(error) => return self.dialogs.notices.add(error),
+        };
+        if self.is_writer_busy() {
+            return;
         }
-        notices.inform(say!("Saved {name}", name = shown_path(&path)));
+        let asks = question.is_some();
+        self.question_of_write = question;
+        let (services, file) = (std::sync::Arc::clone(&self.context.services), path.clone());
+        let write = move || {
+            if asks && services.file_stamp(&file).is_some() {
+                return Ok(WriteOutcome::Exists);
+            }
+            services.write_project(&file, &text)?;
+            let saved = say!("Saved {name}", name = shown_path(&file));
+            Ok(WriteOutcome::Written(saved))
+        };
+        let (target, repaint) = (WriteTarget::Project(path), &self.context.repaint);
+        self.writer.start(target, None, repaint, write);
+    }
+
+    /// Remembers a project that was saved.
+    pub(super) fn end_project_save(&mut self, path: PathBuf) {
+        let notices = &mut self.dialogs.notices;
         let layers = self.files.layers().iter();
         let untitled = layers.filter(|layer| layer.is_untitled()).count();
         if untitled > 0 {

@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use guideway_layout::shown_path;
+use guideway_layout::{UserError, shown_path};
 
 use super::state::App;
 use crate::action::Action;
 use crate::command::Command;
 use crate::file_purpose::PromptKind;
-use crate::files::{DEFAULT_EXTENSION, WriteOutcome, Written};
+use crate::files::{
+    BegunSave, DEFAULT_EXTENSION, SavedFile, Stamp, WriteOutcome, WriteTarget, Written, is_unknown,
+};
 use crate::language::{say, t};
 use crate::panels::dialogs::{Question, Risk};
 use crate::services::{LostPart, Saved};
@@ -58,24 +60,26 @@ impl App {
         let Some(layer) = self.files.active() else {
             return;
         };
-        let on_disk = self.context.services.file_stamp(&path);
-        let risk = match layer.is_at(&path) && !layer.is_untitled() {
-            true if layer.save.is_changed_by_others(on_disk) => Some(Risk::OverwritesChanges),
-            false if on_disk.is_some() => Some(Risk::ReplacesFile(Command::SaveAs)),
-            _ => None,
+        let (known, risk) = match layer.is_at(&path) && !layer.is_untitled() {
+            true => (layer.save.known(), Risk::OverwritesChanges),
+            false => (None, Risk::ReplacesFile(Command::SaveAs)),
         };
-        match risk {
-            Some(risk) => self.dialogs.confirm.ask(Question {
-                file: path.clone(),
-                risk,
-                confirmed: Action::SaveOver(path),
-            }),
-            None => self.save(path),
-        }
+        let question = Question {
+            file: path.clone(),
+            risk,
+            confirmed: Action::SaveOver(path.clone()),
+        };
+        self.start_save(path, Some((known, question)));
     }
 
-    /// Saves the active file under this name.
+    /// Saves the active file under this name, over what is there.
     pub(super) fn save(&mut self, path: PathBuf) {
+        self.start_save(path, None);
+    }
+
+    /// Starts to save the active file under this name. With a state, the save asks its question if
+    /// a file in another state is there.
+    fn start_save(&mut self, path: PathBuf, replaces: Option<(Stamp, Question)>) {
         if self.is_writer_busy() {
             return;
         }
@@ -83,27 +87,37 @@ impl App {
             return;
         };
         let accepted = layer.save.accepted_losses(&path);
-        let Some((snapshot, notices)) = layer.begin_save() else {
+        let Some(begun) = layer.begin_save() else {
             let notice = t("The file is still being loaded or edited; save again in a moment");
             return self.dialogs.notices.add(notice);
         };
-        for notice in notices {
-            self.dialogs.notices.add(notice);
-        }
+        let BegunSave {
+            snapshot,
+            base,
+            notices,
+        } = begun;
+        self.notify_all(notices);
+        let (known, question) = replaces.unzip();
+        self.question_of_write = question;
         let (services, file) = (Arc::clone(&self.context.services), path.clone());
         let write = move || {
+            if known.is_some_and(|known| is_unknown(services.file_stamp(&file), known)) {
+                return Ok(WriteOutcome::Exists);
+            }
+            let copied = base.map_or(Ok(()), |base| base.run());
             let is_known = |lost: &LostPart| accepted.iter().any(|known| known.is_same_part(lost));
             let accepts = |losses: &[LostPart]| losses.iter().all(is_known);
             let saved = services.save_layout(&snapshot.to_layout(), &file, &accepts)?;
             Ok(match saved {
-                Saved::Written(_) => {
-                    WriteOutcome::Written(say!("Saved {name}", name = shown_path(&file)))
-                }
+                Saved::Written(_) => WriteOutcome::Saved {
+                    state: services.file_stamp(&file),
+                    copied,
+                },
                 Saved::TooLossy(losses) => WriteOutcome::TooLossy(losses),
             })
         };
-        self.writer
-            .start(Some(path), None, &self.context.repaint, write);
+        let (target, repaint) = (WriteTarget::Layout(path), &self.context.repaint);
+        self.writer.start(target, None, repaint, write);
     }
 
     /// Saves the active file under this name, although its format cannot hold these parts.
@@ -116,23 +130,46 @@ impl App {
 
     /// Ends a write: a save completes or is taken back, and the user learns of it.
     pub(super) fn end_write(&mut self, written: Written) {
-        let is_written = matches!(written.result, Ok(WriteOutcome::Written(_)));
-        if let Some(path) = &written.layout_path {
-            let saved_as = is_written.then(|| path.clone());
-            let notices = self.files.end_save(saved_as);
-            self.notify_all(notices);
-        }
-        if !is_written {
-            self.dialogs.leave.close();
-        }
-        match written.result {
-            Ok(WriteOutcome::Written(text)) => self.dialogs.notices.inform(text),
-            Ok(WriteOutcome::TooLossy(losses)) => {
-                if let Some(path) = written.layout_path {
-                    self.dialogs.losses.ask(path, losses);
+        let question = self.question_of_write.take();
+        match (written.target, written.result) {
+            (WriteTarget::Layout(path), Ok(WriteOutcome::Saved { state, copied })) => {
+                let saved = say!("Saved {name}", name = shown_path(&path));
+                self.end_save(Some(SavedFile {
+                    path,
+                    state,
+                    copied,
+                }));
+                self.dialogs.notices.inform(saved);
+            }
+            (WriteTarget::Layout(path), unsaved) => {
+                self.end_save(None);
+                self.dialogs.leave.close();
+                match unsaved {
+                    Ok(WriteOutcome::TooLossy(losses)) => self.dialogs.losses.ask(path, losses),
+                    unsaved => self.tell_end(unsaved, question),
                 }
             }
-            Err(error) => self.dialogs.notices.add(error.to_string()),
+            (WriteTarget::Project(path), Ok(WriteOutcome::Written(text))) => {
+                self.dialogs.notices.inform(text);
+                self.end_project_save(path);
+            }
+            (_, result) => self.tell_end(result, question),
+        }
+    }
+
+    fn end_save(&mut self, saved: Option<SavedFile>) {
+        let notices = self.files.end_save(saved);
+        self.notify_all(notices);
+    }
+
+    /// Tells the end of a write, or asks the question of one that would replace a file.
+    fn tell_end(&mut self, result: Result<WriteOutcome, UserError>, question: Option<Question>) {
+        match (result, question) {
+            (Ok(WriteOutcome::Written(text)), _) => self.dialogs.notices.inform(text),
+            (Ok(WriteOutcome::Exists), Some(question)) => self.dialogs.confirm.ask(question),
+            (Err(error), _) => self.dialogs.notices.add(error.to_string()),
+            // Only saves of layouts have other ends.
+            _ => {}
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::language::{Language, set_language};
-use crate::panels::dialogs::Dialogs;
+use crate::panels::dialogs::{Dialogs, Question};
 use crate::panels::{
     BottomPanel, FindingsPanel, NewEdgesPanel, PropertiesPanel, SideTabs, Welcome,
 };
@@ -60,6 +60,8 @@ pub(crate) struct App {
     /// The graphics adapter that shows the window; empty without a window.
     pub(crate) adapter: String,
     pub(crate) writer: FileWriter,
+    /// The question of the write in progress, asked if its file is there.
+    pub(super) question_of_write: Option<Question>,
     pub(crate) clipboard: Clipboard,
     pub(super) preferences_file: PreferencesFile,
     pub(crate) window_place: WindowPlace,
@@ -116,6 +118,7 @@ impl App {
             context_place: ContextPlace::default(),
             adapter: String::new(),
             writer: FileWriter::default(),
+            question_of_write: None,
             clipboard: Clipboard::default(),
             preferences_file,
             window_place: preferences.window,

@@ -6,7 +6,7 @@ use std::path::Path;
 use guideway_document::{Document, ReplayProgress, SavedState};
 use guideway_layout::shown_path;
 
-use super::journal_file::JournalFile;
+use super::journal_file::{BaseCopy, JournalFile};
 use super::notice::Notice;
 use super::unsaved_work::{UnsavedSummary, UnsavedWork};
 use crate::language::{say, t};
@@ -107,14 +107,26 @@ impl Journal {
         )
     }
 
-    /// Suspends recording while the layout is saved, and copies the file as read.
+    /// Suspends recording while the layout is saved. Returns the copy to make of the file as read.
     ///
     /// # Errors
     /// When the journal cannot be written. The save may go on.
-    pub(crate) fn begin_save(&mut self, before: SavedState, file: &Path) -> Result<(), Notice> {
+    pub(crate) fn begin_save(
+        &mut self,
+        before: SavedState,
+        file: &Path,
+    ) -> Result<Option<BaseCopy>, Notice> {
         self.saving = Some(before);
-        let result = self.file.as_mut().map_or(Ok(()), |j| j.copy_base(file));
-        self.close_on_error(result, file)
+        let result = self.file.as_mut().map(|journal| journal.base_copy(file));
+        self.close_on_error(result.transpose(), file)
+    }
+
+    /// Closes the journal if the file as read was not copied: its entries begin with that file.
+    ///
+    /// # Errors
+    /// When it was not.
+    pub(crate) fn end_copy(&mut self, copied: io::Result<()>, file: &Path) -> Result<(), Notice> {
+        self.close_on_error(copied, file)
     }
 
     /// Resumes recording after a successful save to `file`.

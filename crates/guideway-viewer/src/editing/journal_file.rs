@@ -160,16 +160,16 @@ impl JournalFile {
         }
     }
 
-    /// Copies the file as read, before its first save.
+    /// The copy of the file as read that is to be made before its first save, on any thread.
     ///
     /// # Errors
-    /// When the copy cannot be written, or another window has the journal.
-    pub(super) fn copy_base(&mut self, layout_file: &Path) -> io::Result<()> {
+    /// When the journal cannot be written, or another window has it.
+    pub(super) fn base_copy(&mut self, layout_file: &Path) -> io::Result<BaseCopy> {
         self.created(layout_file)?;
-        match self.base.exists() {
-            true => Ok(()),
-            false => copy(layout_file, &self.base),
-        }
+        Ok(BaseCopy {
+            from: layout_file.to_owned(),
+            to: self.base.clone(),
+        })
     }
 
     /// Marks all entries as saved, in `layout_file`, which may have another name than before.
@@ -227,6 +227,26 @@ impl JournalFile {
                 // Either may be absent.
                 let _ = fs::remove_file(path);
             }
+        }
+    }
+}
+
+/// A copy of a layout file as it was read, unless there is one.
+#[derive(Clone, Debug)]
+pub(crate) struct BaseCopy {
+    from: PathBuf,
+    to: PathBuf,
+}
+
+impl BaseCopy {
+    /// Makes the copy, which takes time for a large file.
+    ///
+    /// # Errors
+    /// When the file cannot be read or the copy cannot be written.
+    pub(crate) fn run(&self) -> io::Result<()> {
+        match self.to.exists() {
+            true => Ok(()),
+            false => copy(&self.from, &self.to),
         }
     }
 }

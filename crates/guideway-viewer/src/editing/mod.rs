@@ -24,7 +24,7 @@ pub(crate) use document_slot::{DocumentSlot, EditReturn};
 pub(crate) use edit_task::{EDIT_WAIT, EditTask};
 pub(crate) use findings::{Findings, MarkedSeverities, SEVERITIES};
 pub(crate) use journal::Journal;
-pub(crate) use journal_file::JournalFile;
 #[cfg(test)]
 pub(crate) use journal_file::entries_on_disk;
+pub(crate) use journal_file::{BaseCopy, JournalFile};
 pub(crate) use unsaved_work::UnsavedWork;

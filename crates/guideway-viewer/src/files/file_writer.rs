@@ -1,10 +1,14 @@
-//! Writes one file at a time in the background: a layout, a PNG or an SVG.
+//! Writes one file at a time in the background: a layout, a project, a PNG, an SVG or a PDF. All
+//! that it does to a disk, which may be slow or gone, is done there: also the look at what a file
+//! would replace.
 
+use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use guideway_layout::UserError;
 
+use super::watcher::Stamp;
 use crate::background::{BackgroundTask, RepaintHandle};
 use crate::services::{Job, LostPart};
 
@@ -16,17 +20,33 @@ pub(crate) struct FileWriter {
 
 struct Write {
     task: BackgroundTask<Result<WriteOutcome, UserError>>,
-    /// Path of the file, if it is a layout.
-    layout_path: Option<PathBuf>,
+    target: WriteTarget,
     /// Progress, if the writer reports it.
     job: Option<Arc<Job>>,
 }
 
+/// The file of a write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum WriteTarget {
+    Layout(PathBuf),
+    Project(PathBuf),
+    Picture,
+}
+
 /// The outcome of a write without an error.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub(crate) enum WriteOutcome {
     /// The file is written; a sentence for the user.
     Written(String),
+    /// The layout is written.
+    Saved {
+        /// The state of the file after that.
+        state: Stamp,
+        /// Whether the file as read was copied for the journal before.
+        copied: io::Result<()>,
+    },
+    /// Nothing is written: the user has not agreed to replace the file that is there.
+    Exists,
     /// Nothing is written: the user has not accepted these losses.
     TooLossy(Vec<LostPart>),
 }
@@ -34,8 +54,7 @@ pub(crate) enum WriteOutcome {
 /// The end of a write.
 pub(crate) struct Written {
     pub(crate) result: Result<WriteOutcome, UserError>,
-    /// Path of the file, if it is a layout.
-    pub(crate) layout_path: Option<PathBuf>,
+    pub(crate) target: WriteTarget,
 }
 
 impl FileWriter {
@@ -48,14 +67,14 @@ impl FileWriter {
     /// false: a write in progress would lose its result.
     pub(crate) fn start(
         &mut self,
-        layout_path: Option<PathBuf>,
+        target: WriteTarget,
         job: Option<Arc<Job>>,
         repaint: &RepaintHandle,
         write: impl FnOnce() -> Result<WriteOutcome, UserError> + Send + 'static,
     ) {
         self.current = Some(Write {
             task: BackgroundTask::start(repaint, write),
-            layout_path,
+            target,
             job,
         });
     }
@@ -71,7 +90,7 @@ impl FileWriter {
         let write = self.current.take()?;
         Some(Written {
             result: result.flatten(),
-            layout_path: write.layout_path,
+            target: write.target,
         })
     }
 }
@@ -89,7 +108,7 @@ mod tests {
         let mut writer = FileWriter::default();
         let (finish, rest) = mpsc::channel::<()>();
         let repaint: RepaintHandle = Arc::new(|| {});
-        writer.start(Some("site.arrow".into()), None, &repaint, move || {
+        writer.start(WriteTarget::Picture, None, &repaint, move || {
             let _ = rest.recv();
             Ok(WriteOutcome::Written("saved".into()))
         });
@@ -99,8 +118,8 @@ mod tests {
             thread::sleep(Duration::from_millis(1));
             writer.poll()
         });
-        let outcome = WriteOutcome::Written("saved".into());
-        assert_eq!(written.unwrap().result, Ok(outcome));
+        let outcome = written.unwrap().result.unwrap();
+        assert!(matches!(outcome, WriteOutcome::Written(text) if text == "saved"));
         assert!(!writer.is_busy());
     }
 }

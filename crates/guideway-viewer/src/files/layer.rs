@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use guideway_document::{Document, Snapshot};
+use guideway_document::Document;
 use guideway_layout::shown_path;
 use guideway_scene::SceneOptions;
 
@@ -13,7 +13,7 @@ use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::layer_look::LayerLook;
 use super::loader::{Loader, NewLayout, Source};
-use super::save_state::SaveState;
+use super::save_state::{BegunSave, SaveState, SavedFile};
 use crate::background::RepaintHandle;
 use crate::editing::{BackgroundTasks, DocumentSlot, EDIT_WAIT, EditReturn, EditTask, UnsavedWork};
 use crate::language::t;
@@ -210,8 +210,6 @@ impl Layer {
                 Source::New(layout.clone(), draft)
             }
         };
-        let stamp = services.file_stamp(&self.path);
-        self.save.begin_load(stamp.filter(|_| !self.is_untitled()));
         self.loader = Some(Loader::start(services, source, unsaved, options, repaint));
     }
 
@@ -221,24 +219,23 @@ impl Layer {
     }
 
     /// Begins a save: see [`SaveState::begin`].
-    pub(crate) fn begin_save(&mut self) -> Option<(Snapshot, Vec<String>)> {
+    pub(crate) fn begin_save(&mut self) -> Option<BegunSave> {
         let home = self.journal_home().to_owned();
         self.save.begin(&mut self.slot, &home)
     }
 
-    /// Ends a save; with a path, the layout was written there.
+    /// Ends a save; with a file, the layout was written there.
     pub(crate) fn end_save(
         &mut self,
-        saved_as: Option<PathBuf>,
+        saved: Option<SavedFile>,
         context: &LayerContext,
     ) -> Option<LayerEvent> {
-        if let Some(path) = &saved_as {
-            self.path.clone_from(path);
+        if let Some(file) = &saved {
+            self.path.clone_from(&file.path);
         }
-        let state = context.services.file_stamp(&self.path);
-        let is_first = saved_as.is_some() && self.new.take().is_some();
+        let is_first = saved.is_some() && self.new.take().is_some();
         let opens_journal = is_first && self.draft.is_none() && self.keeps_journal;
-        let complete = self.save.end(saved_as, state, opens_journal);
+        let complete = self.save.end(saved, opens_journal);
         self.run(complete, EDIT_WAIT, &context.repaint)
     }
 

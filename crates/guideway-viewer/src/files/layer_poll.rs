@@ -10,6 +10,7 @@ use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::loader::{Loaded, Loader};
 use super::save_state::changed_on_disk;
+use super::watcher::Stamp;
 use crate::editing::{EDIT_WAIT, Journal, TaskEvent};
 use crate::render_queue::PictureEvent;
 use crate::services::LoadStage;
@@ -85,7 +86,9 @@ impl Layer {
                     self.picture.set_scene(scene);
                 }
             }
-            Loaded::Document(document, done) => self.take_document(*document, done, events),
+            Loaded::Document(document, done, stamp) => {
+                self.take_document(*document, done, stamp, events);
+            }
             Loaded::Findings(findings) => {
                 self.tasks.set_findings(findings);
                 events.push(LayerEvent::Reached(LoadStage::Checked));
@@ -107,6 +110,7 @@ impl Layer {
         &mut self,
         mut document: Document,
         done: Option<ReplayProgress>,
+        stamp: Stamp,
         events: &mut Vec<LayerEvent>,
     ) {
         self.save.end_reload();
@@ -115,7 +119,7 @@ impl Layer {
             events.push(LayerEvent::Notice(changed_on_disk(&self.name())));
             return;
         }
-        self.save.complete_load();
+        self.save.complete_load(stamp);
         let notice = match done {
             Some(done) => {
                 let home = self.journal_home().to_owned();

@@ -11,6 +11,7 @@ use guideway_layout::{CheckOptions, Layout, UserError};
 use guideway_scene::{Scene, SceneOptions};
 
 use super::draft_file::write_draft;
+use super::watcher::Stamp;
 use crate::background::RepaintHandle;
 use crate::editing::{Findings, UnsavedWork};
 use crate::language::{say, start_thread, t};
@@ -61,8 +62,9 @@ pub(crate) struct Loader {
 pub(crate) enum Loaded {
     /// The scene, ready to render.
     Scene(Arc<Scene>),
-    /// The document, ready to edit, and how much unsaved work was replayed on it.
-    Document(Box<Document>, Option<ReplayProgress>),
+    /// The document, ready to edit, how much unsaved work was replayed on it, and the state of its
+    /// file before it was read.
+    Document(Box<Document>, Option<ReplayProgress>, Stamp),
     /// The result of the check.
     Findings(Findings),
     /// The file cannot be read.
@@ -91,6 +93,10 @@ impl Loader {
                 let _ = sender.send(piece);
                 repaint();
             };
+            let stamp = match &source {
+                Source::File(path) => services.file_stamp(path),
+                Source::New(..) => None,
+            };
             let base = unsaved.as_ref().map(|work| Source::File(work.base.clone()));
             let source = base.unwrap_or(source);
             let scene = match read(&*services, &source, &options, &watched) {
@@ -109,7 +115,7 @@ impl Loader {
             match progress.transpose() {
                 Ok(progress) => {
                     let snapshot = document.snapshot();
-                    send(Loaded::Document(Box::new(document), progress));
+                    send(Loaded::Document(Box::new(document), progress, stamp));
                     let findings = Findings::of(&snapshot, &CheckOptions::default());
                     send(Loaded::Findings(findings));
                 }

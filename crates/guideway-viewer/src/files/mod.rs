@@ -24,10 +24,12 @@ mod save_state;
 mod watcher;
 
 pub(crate) use draft_file::DEFAULT_EXTENSION;
-pub(crate) use file_writer::{FileWriter, WriteOutcome, Written};
+pub(crate) use file_writer::{FileWriter, WriteOutcome, WriteTarget, Written};
 pub(crate) use layer::Layer;
 pub(crate) use layer_context::LayerContext;
 pub(crate) use layer_event::LayerEvent;
 pub(crate) use layer_look::LayerLook;
 pub(crate) use loader::NewLayout;
 pub(crate) use open_files::OpenFiles;
+pub(crate) use save_state::{BegunSave, SavedFile, is_unknown};
+pub(crate) use watcher::Stamp;

@@ -13,7 +13,7 @@ use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::loader::NewLayout;
 use super::recent_files::RecentFiles;
-use super::save_state::{changed_on_disk, gone_from_disk};
+use super::save_state::{SavedFile, changed_on_disk, gone_from_disk};
 use super::watcher::Watcher;
 use crate::language::say;
 
@@ -279,14 +279,14 @@ impl OpenFiles {
         notices
     }
 
-    /// Ends the save in progress; with a path, the layout was written there. Returns notices.
-    pub(crate) fn end_save(&mut self, saved_as: Option<PathBuf>) -> Vec<String> {
+    /// Ends the save in progress; with a file, the layout was written there. Returns notices.
+    pub(crate) fn end_save(&mut self, saved: Option<SavedFile>) -> Vec<String> {
         let is_saving = |layer: &Layer| layer.save.is_saving();
         let Some(index) = self.layers.iter().position(is_saving) else {
             return Vec::new();
         };
-        let is_written = saved_as.is_some();
-        let event = self.layers[index].end_save(saved_as, &self.context);
+        let is_written = saved.is_some();
+        let event = self.layers[index].end_save(saved, &self.context);
         self.is_watch_outdated = true;
         let mut notices = Vec::new();
         if let Some(LayerEvent::Notice(notice)) = event {

@@ -1,12 +1,13 @@
 //! The save and reload state of one open file, and the steps of a save.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use guideway_document::Snapshot;
 use guideway_layout::shown_path;
 
 use super::watcher::Stamp;
-use crate::editing::{DocumentSlot, EditTask, Journal};
+use crate::editing::{BaseCopy, DocumentSlot, EditTask, Journal};
 use crate::language::say;
 use crate::services::LostPart;
 
@@ -21,10 +22,26 @@ pub(crate) struct SaveState {
     is_written: bool,
     /// State of the file that the document stands for: as it was read or saved here.
     known: Stamp,
-    /// State of the file at the start of the load in progress.
-    loading: Stamp,
     /// Losses that the user has accepted, and for which file.
     accepted: Option<(PathBuf, Vec<LostPart>)>,
+}
+
+/// The start of a save: the parts of its write, which another thread performs.
+pub(crate) struct BegunSave {
+    pub(crate) snapshot: Snapshot,
+    /// Made before the file is written.
+    pub(crate) base: Option<BaseCopy>,
+    /// For the user.
+    pub(crate) notices: Vec<String>,
+}
+
+/// A file that a save has written.
+pub(crate) struct SavedFile {
+    pub(crate) path: PathBuf,
+    /// Its state after that.
+    pub(crate) state: Stamp,
+    /// The result of [`BegunSave::base`].
+    pub(crate) copied: io::Result<()>,
 }
 
 impl SaveState {
@@ -55,17 +72,17 @@ impl SaveState {
     /// Returns `true` if another program has changed the file, now in this state, since it was read
     /// or saved here. A file that is gone holds nothing to lose.
     pub(crate) fn is_changed_by_others(&self, state: Stamp) -> bool {
-        state.is_some() && state != self.known
+        is_unknown(state, self.known)
     }
 
-    /// Begins to read the file in this state.
-    pub(super) fn begin_load(&mut self, state: Stamp) {
-        self.loading = state;
+    /// State of the file that the document stands for; `None` without one.
+    pub(crate) fn known(&self) -> Stamp {
+        self.known
     }
 
-    /// The document is that of the file at the start of the load.
-    pub(super) fn complete_load(&mut self) {
-        self.known = self.loading;
+    /// The document is that of the file, which had this state before it was read.
+    pub(super) fn complete_load(&mut self, state: Stamp) {
+        self.known = state;
     }
 
     pub(super) fn begin_reload(&mut self, drops_changes: bool) {
@@ -81,14 +98,9 @@ impl SaveState {
         self.is_reloading = false;
     }
 
-    /// Begins a save: returns the snapshot to write and notices for the user. `None` while the file
-    /// is reloaded, an edit has the document, or unsaved work awaits a decision: the content to
-    /// save is not certain then.
-    pub(super) fn begin(
-        &mut self,
-        slot: &mut DocumentSlot,
-        file: &Path,
-    ) -> Option<(Snapshot, Vec<String>)> {
+    /// Begins a save. `None` while the file is reloaded, an edit has the document, or unsaved work
+    /// awaits a decision: the content to save is not certain then.
+    pub(super) fn begin(&mut self, slot: &mut DocumentSlot, file: &Path) -> Option<BegunSave> {
         if slot.journal().has_unsaved_work() || self.is_reloading {
             return None;
         }
@@ -97,28 +109,35 @@ impl SaveState {
         let snapshot = document.snapshot();
         let before = document.mark_saved();
         self.is_saving = true;
-        let recorded = slot.record(file);
-        let copied = slot.journal_mut().begin_save(before, file);
-        let notices = [recorded, copied].into_iter().filter_map(Result::err);
-        Some((snapshot, notices.collect()))
+        let recorded = slot.record(file).err();
+        let mut notices: Vec<String> = recorded.into_iter().collect();
+        let base = slot.journal_mut().begin_save(before, file);
+        let base = base.unwrap_or_else(|notice| {
+            notices.push(notice);
+            None
+        });
+        Some(BegunSave {
+            snapshot,
+            base,
+            notices,
+        })
     }
 
-    /// Ends a save; with a path, the layout was written there, into this state, and with
-    /// `opens_journal` has a file from now on. Returns the edit that completes it in the document
-    /// and its journal.
-    pub(super) fn end(
-        &mut self,
-        saved_as: Option<PathBuf>,
-        state: Stamp,
-        opens_journal: bool,
-    ) -> EditTask {
+    /// Ends a save; with a file, the layout was written there, and with `opens_journal` has a file
+    /// from now on. Returns the edit that completes it in the document and its journal.
+    pub(super) fn end(&mut self, saved: Option<SavedFile>, opens_journal: bool) -> EditTask {
         self.is_saving = false;
-        match saved_as {
-            Some(path) => {
+        match saved {
+            Some(SavedFile {
+                path,
+                state,
+                copied,
+            }) => {
                 (self.is_written, self.known) = (true, state);
                 EditTask::with_journal(move |_, journal| {
                     if !opens_journal {
-                        return journal.complete_save(&path);
+                        let copied = journal.end_copy(copied, &path);
+                        return journal.complete_save(&path).and(copied);
                     }
                     *journal = Journal::open(&path);
                     journal.take_notice().map_or(Ok(()), Err)
@@ -132,6 +151,11 @@ impl SaveState {
             }),
         }
     }
+}
+
+/// Returns `true` if a file in this state is not the one in the known state.
+pub(crate) fn is_unknown(state: Stamp, known: Stamp) -> bool {
+    state.is_some() && state != known
 }
 
 /// The notice about a file that both another program and the user changed.
@@ -174,7 +198,7 @@ mod tests {
         assert!(!slot.document().unwrap().is_changed());
         let repaint: RepaintHandle = Arc::new(|| {});
         slot.run(
-            save.end(None, None, false),
+            save.end(None, false),
             Duration::from_secs(60),
             file,
             &repaint,

@@ -7,7 +7,8 @@ use egui_kittest::kittest::Queryable;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
-use crate::services::{FileAnswer, LostPart};
+use crate::command::Command;
+use crate::services::{AppServices, FileAnswer, LostPart};
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -51,6 +52,8 @@ fn line_of_the_window_takes_over_where_no_dialog_answers() {
         window.wait(|app| app.dialogs.prompt.is_open());
         window.app().dialogs.prompt.open_mut().unwrap().text = "c.arrow".into();
         window.key(NONE, Key::Enter);
+        window.wait(|app| !app.dialogs.prompt.is_checking());
+        window.harness.run_steps(2);
         let problem = "There is no such file";
         assert!(window.harness.query_by_label(problem).is_some());
         assert!(window.app().files.layers().is_empty(), "nothing is opened");
@@ -129,4 +132,48 @@ fn losses_are_told_before_the_file_is_written() {
     let choose = "Choose another format";
     window.harness.get_by_label(choose).click();
     window.wait(|app| app.dialogs.prompt.is_open());
+}
+
+#[test]
+fn window_does_not_wait_for_the_disk_of_a_file_to_write() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = folder.path().join("hall.guideway-project.toml");
+    std::fs::write(&project, "").unwrap();
+    let mut window = TestWindow::showing(lanes(4));
+    let files = window.disk.files.lock().unwrap().clone();
+    let there = files
+        .into_iter()
+        .map(|(_, layout)| (project.clone(), layout));
+    window.disk.files.lock().unwrap().extend(there);
+    for (command, name, is_there) in [
+        (Command::SaveAs, "a.arrow", false),
+        (Command::SaveAs, "site.arrow", true),
+        (Command::ExportSvg, "b.svg", false),
+        (Command::ExportSvg, "b.svg", true),
+        (Command::ExportPng, "a.arrow", true),
+        (Command::SaveProject, project.to_str().unwrap(), true),
+    ] {
+        window.app().dialogs.notices.clear();
+        let ctx = window.harness.ctx.clone();
+        window.app().perform(command, &ctx);
+        window.app().dialogs.prompt.open_mut().unwrap().text = name.into();
+        window.harness.run_steps(2);
+        window.key(NONE, Key::Enter);
+        if is_there {
+            window.wait(|app| app.dialogs.confirm.is_open());
+            window.harness.run_steps(2);
+            window.harness.get_by_label("Replace it").click();
+        }
+        window.wait(|app| has_notice(app, "Saved") || has_notice(app, "Wrote"));
+    }
+    window.key(CTRL, Key::S);
+    window.key(CTRL, Key::R);
+    window.wait(|app| !app.writer.is_busy() && app.files.is_settled());
+    assert_eq!(*window.disk.on_window.lock().unwrap(), [""; 0]);
+    // A recorder that records nothing would let all pass.
+    assert!(window.disk.file_stamp(Path::new("a.arrow")).is_some());
+    assert_eq!(
+        *window.disk.on_window.lock().unwrap(),
+        ["looking at a file"]
+    );
 }

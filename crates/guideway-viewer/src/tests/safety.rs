@@ -158,10 +158,15 @@ fn saving_over_changes_of_others_asks_first() {
     window.key(NONE, Key::Delete);
     window.disk.overwrite("site.arrow", lanes(7));
     window.key(CTRL, Key::S);
+    window.wait(|app| app.dialogs.confirm.is_open());
+    window.harness.run_steps(2);
     assert!(is_shown(&window, "Overwrite its changes"));
     window.key(NONE, Key::Escape);
     assert_eq!(saved(&window), 7, "the other program's file is there");
+    assert!(window.document().is_changed());
     window.key(CTRL, Key::S);
+    window.wait(|app| app.dialogs.confirm.is_open());
+    window.harness.run_steps(2);
     window.harness.get_by_label("Overwrite its changes").click();
     window.wait(|app| has_notice(app, "Saved"));
     assert_eq!(saved(&window), 2);
@@ -181,6 +186,8 @@ fn saving_over_another_file_asks_first() {
     window.key(CTRL.plus(Modifiers::SHIFT), Key::S);
     window.app().dialogs.prompt.open_mut().unwrap().text = "b.arrow".into();
     window.key(NONE, Key::Enter);
+    window.wait(|app| app.dialogs.confirm.is_open());
+    window.harness.run_steps(2);
     assert!(is_shown(&window, "Replace it"));
     window.harness.get_by_label("Choose another name").click();
     window.harness.run_steps(2);

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
+use std::thread::{self, ThreadId};
 use std::time::{Duration, SystemTime};
 
 use guideway_compose::{FloorPlan, VectorFormat};
@@ -44,6 +45,9 @@ pub(crate) struct TestServices {
     pub(crate) state: Mutex<Option<PathBuf>>,
     /// Paths of the last rendered swept areas.
     pub(crate) swept: Mutex<Vec<u32>>,
+    /// The thread of the window, and what reached the disk from it.
+    window: Option<ThreadId>,
+    pub(crate) on_window: Mutex<Vec<&'static str>>,
     /// Exported pictures.
     pub(crate) pictures: Mutex<Vec<(PathBuf, PictureRequest)>>,
     /// True if the graphics device is lost. The next start of the method resets it.
@@ -72,6 +76,7 @@ impl TestServices {
             .collect();
         Arc::new(Self {
             files: Mutex::new(files),
+            window: Some(thread::current().id()),
             ..Self::default()
         })
     }
@@ -90,12 +95,19 @@ impl TestServices {
         }
     }
 
+    fn note_thread(&self, what: &'static str) {
+        if self.window == Some(thread::current().id()) {
+            locked(&self.on_window).push(what);
+        }
+    }
+
     fn wait_for_disk(&self, job: &Job) -> Result<(), UserError> {
+        self.note_thread("reading or writing");
         while *locked(&self.is_blocked) {
             if job.is_cancelled() {
                 return Err(Self::error("cancelled"));
             }
-            std::thread::sleep(Duration::from_millis(1));
+            thread::sleep(Duration::from_millis(1));
         }
         Ok(())
     }
@@ -188,6 +200,7 @@ impl AppServices for TestServices {
     }
 
     fn write_project(&self, path: &Path, text: &str) -> Result<(), UserError> {
+        self.note_thread("writing a project");
         std::fs::write(path, text).map_err(|error| Self::error(&error.to_string()))
     }
 
@@ -214,6 +227,7 @@ impl AppServices for TestServices {
     }
 
     fn file_stamp(&self, path: &Path) -> Option<FileStamp> {
+        self.note_thread("looking at a file");
         let writes = locked(&self.writes);
         let files = locked(&self.files);
         files.contains_key(path).then(|| FileStamp {
@@ -273,8 +287,10 @@ impl AppServices for TestServices {
         &self,
         _: &PictureRequest,
         _: VectorFormat,
-        _: &Path,
+        path: &Path,
     ) -> Result<(), UserError> {
+        self.wait_for_disk(&Job::default())?;
+        locked(&self.files).insert(path.to_owned(), Layout::default());
         Ok(())
     }
 

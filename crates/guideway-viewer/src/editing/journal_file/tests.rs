@@ -29,6 +29,10 @@ fn edited() -> (tempfile::TempDir, PathBuf, Document, JournalFile) {
     (folder, site, edited, journal)
 }
 
+fn copy_base(journal: &mut JournalFile, site: &Path) -> io::Result<()> {
+    journal.base_copy(site)?.run()
+}
+
 fn files(folder: &tempfile::TempDir) -> usize {
     fs::read_dir(folder.path()).unwrap().count()
 }
@@ -94,7 +98,7 @@ fn work_after_a_save_starts_from_the_file_as_read() {
     for name in ["site.arrow", "other.arrow"] {
         let (folder, site, mut edited, mut journal) = edited();
         let target = folder.path().join(name);
-        journal.copy_base(&site).unwrap();
+        copy_base(&mut journal, &site).unwrap();
         let new = folder.path().join("new");
         fs::write(&new, "as it is saved").unwrap();
         fs::rename(&new, &target).unwrap();
@@ -117,7 +121,7 @@ fn work_after_an_unchanged_save_starts_from_the_file_as_read() {
         fs::write(&site, "as it was read").unwrap();
         let mut journal = open(&site);
         let mut edited = document();
-        journal.copy_base(&site).unwrap();
+        copy_base(&mut journal, &site).unwrap();
         fs::write(folder.path().join("new"), "as it is saved").unwrap();
         fs::rename(folder.path().join("new"), &target).unwrap();
         journal.mark_saved(&target).unwrap();
@@ -200,7 +204,7 @@ fn work_stays_until_recovered_or_discarded() {
 #[test]
 fn saved_or_discarded_work_leaves_no_files() {
     let (folder, site, _, mut journal) = edited();
-    journal.copy_base(&site).unwrap();
+    copy_base(&mut journal, &site).unwrap();
     journal.mark_saved(&site).unwrap();
     assert_eq!(files(&folder), 3);
     drop(journal);
@@ -232,14 +236,14 @@ fn another_window_leaves_the_journal_alone() {
     let mut other = document();
     other.move_node(3, Point::new(5.0, 5.0)).unwrap();
     busy(second.record(&mut other, &site));
-    busy(second.copy_base(&site));
+    busy(copy_base(&mut second, &site));
     second.delete();
     assert_eq!(bytes(), before);
     // A window that saves under the name of this file.
     let third_site = folder.path().join("third.arrow");
     fs::write(&third_site, "third").unwrap();
     let mut third = open(&third_site);
-    third.copy_base(&third_site).unwrap();
+    copy_base(&mut third, &third_site).unwrap();
     busy(third.mark_saved(&site));
     assert_eq!(bytes(), before);
     journal.delete();
@@ -255,7 +259,7 @@ fn saving_over_a_file_keeps_its_unsaved_work() {
     let other = folder.path().join("other.arrow");
     fs::write(&other, "other").unwrap();
     let mut journal = open(&other);
-    journal.copy_base(&other).unwrap();
+    copy_base(&mut journal, &other).unwrap();
     journal.mark_saved(&site).unwrap();
     let kept = with_suffix(&sibling(&site, "journal"), "-old");
     assert_eq!(fs::read(kept).unwrap(), left);
@@ -264,7 +268,7 @@ fn saving_over_a_file_keeps_its_unsaved_work() {
 #[test]
 fn later_writes_into_the_file_do_not_reach_the_base() {
     let (_folder, site, _, mut journal) = edited();
-    journal.copy_base(&site).unwrap();
+    copy_base(&mut journal, &site).unwrap();
     fs::write(&site, "written in place").unwrap();
     let base = fs::read_to_string(sibling(&site, "base")).unwrap();
     assert_eq!(base, "as it was read");
@@ -302,7 +306,7 @@ fn journal_is_as_private_as_the_layout() {
     let site = folder.path().join("site.arrow");
     fs::write(&site, "").unwrap();
     fs::set_permissions(&site, Permissions::from_mode(0o600)).unwrap();
-    open(&site).copy_base(&site).unwrap();
+    copy_base(&mut open(&site), &site).unwrap();
     for kind in ["journal", "base"] {
         let mode = fs::metadata(sibling(&site, kind))
             .unwrap()

@@ -34,8 +34,7 @@ pub(crate) use shortcuts_window::ShortcutsWindow;
 pub(crate) use text_dialog::TextDialog;
 
 use crate::action::Action;
-use crate::files::OpenFiles;
-use crate::services::AppServices;
+use crate::files::{LayerContext, OpenFiles};
 
 /// All dialogs; most are closed at any time.
 #[derive(Default)]
@@ -104,11 +103,13 @@ impl Dialogs {
         &mut self,
         ctx: &Context,
         files: &OpenFiles,
-        services: &dyn AppServices,
+        LayerContext {
+            services, repaint, ..
+        }: &LayerContext,
         canvas: Rect,
     ) -> Vec<Action> {
         let mut actions = Vec::new();
-        actions.extend(self.prompt.show(ctx, services));
+        actions.extend(self.prompt.show(ctx, services, repaint));
         actions.extend(self.picker.show(ctx).map(Action::Picked));
         actions.extend(self.losses.show(ctx));
         actions.extend(self.text.show(ctx));

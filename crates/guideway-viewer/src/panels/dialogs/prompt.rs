@@ -2,11 +2,14 @@
 //! has more to it, as the width of a PNG.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
 
 use eframe::egui::{Context, DragValue, Id, Key, Modal, Modifiers, TextEdit, Ui};
 
 use super::path_line::{Completion, complete, path_of};
 use crate::action::Action;
+use crate::background::{BackgroundTask, RepaintHandle};
 use crate::file_purpose::PromptKind;
 use crate::language::{say, t};
 use crate::services::AppServices;
@@ -15,6 +18,8 @@ use crate::services::AppServices;
 const DEFAULT_WIDTH_PX: u32 = 3840;
 /// Greatest side of a frame, in pixels.
 const MAX_WIDTH_PX: u32 = 65_535;
+/// Longest time that a frame waits for the check of a name: half a frame at 60 Hz.
+const CHECK_WAIT: Duration = Duration::from_millis(8);
 /// Width of the line, in points.
 const LINE_WIDTH: f32 = 480.0;
 
@@ -34,6 +39,8 @@ pub(crate) struct OpenPrompt {
     completion: Completion,
     /// Why the text is no answer.
     problem: Option<String>,
+    /// The check of the name that was confirmed, with its problem: a disk may be slow or gone.
+    check: Option<BackgroundTask<Option<String>>>,
 }
 
 impl Prompt {
@@ -46,6 +53,7 @@ impl Prompt {
             wants_focus: true,
             completion: Completion::default(),
             problem: None,
+            check: None,
         });
     }
 
@@ -70,6 +78,12 @@ impl Prompt {
         self.open.is_some()
     }
 
+    /// Returns `true` if a confirmed name is being checked.
+    #[cfg(test)]
+    pub(crate) fn is_checking(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| open.check.is_some())
+    }
+
     #[cfg(test)]
     pub(crate) fn open_mut(&mut self) -> Option<&mut OpenPrompt> {
         self.open.as_mut()
@@ -79,29 +93,37 @@ impl Prompt {
         self.open = None;
     }
 
-    pub(super) fn show(&mut self, ctx: &Context, services: &dyn AppServices) -> Option<Action> {
+    pub(super) fn show(
+        &mut self,
+        ctx: &Context,
+        services: &Arc<dyn AppServices>,
+        repaint: &RepaintHandle,
+    ) -> Option<Action> {
         let prompt = self.open.as_mut()?;
-        let modal = Modal::new(Id::unique("prompt")).show(ctx, |ui| prompt.content(ui, services));
+        let modal =
+            Modal::new(Id::unique("prompt")).show(ctx, |ui| prompt.content(ui, &**services));
         match modal.inner {
-            Some(Answer::Browse) => Some(Action::Browse(prompt.kind)),
-            Some(Answer::Ok) => {
-                prompt.problem = prompt.check(services);
-                if prompt.problem.is_some() {
-                    prompt.wants_focus = true;
-                    return None;
-                }
-                let prompt = self.open.take()?;
-                prompt.kind.action(prompt.answer(), prompt.width_px)
-            }
+            Some(Answer::Browse) => return Some(Action::Browse(prompt.kind)),
+            Some(Answer::Ok) => prompt.start_check(services, repaint),
             Some(Answer::Cancel) => {
                 self.open = None;
-                None
+                return None;
             }
-            None => {
-                self.open.take_if(|_| modal.should_close());
-                None
+            None if modal.should_close() => {
+                self.open = None;
+                return None;
             }
+            None => {}
         }
+        let result = prompt.check.as_ref()?.result_within(CHECK_WAIT)?;
+        prompt.check = None;
+        prompt.problem = result.unwrap_or_else(|error| Some(error.to_string()));
+        if prompt.problem.is_some() {
+            prompt.wants_focus = true;
+            return None;
+        }
+        let prompt = self.open.take()?;
+        prompt.kind.action(prompt.answer(), prompt.width_px)
     }
 }
 
@@ -109,6 +131,7 @@ impl OpenPrompt {
     fn content(&mut self, ui: &mut Ui, services: &dyn AppServices) -> Option<Answer> {
         let mut answer = None;
         ui.set_max_width(LINE_WIDTH);
+        let is_checking = self.check.is_some();
         let title = ui.label(self.kind.title());
         let id = Id::unique("prompt line");
         let tab = |ui: &mut Ui| ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Tab));
@@ -118,7 +141,8 @@ impl OpenPrompt {
             place_cursor_at_end(ui, id, &self.text);
         }
         let line = TextEdit::singleline(&mut self.text).id(id).lock_focus(true);
-        let field = ui.add(line.desired_width(LINE_WIDTH)).labelled_by(title.id);
+        let field = ui.add_enabled(!is_checking, line.desired_width(LINE_WIDTH));
+        let field = field.labelled_by(title.id);
         if std::mem::take(&mut self.wants_focus) {
             field.request_focus();
         }
@@ -144,12 +168,14 @@ impl OpenPrompt {
         ));
         ui.horizontal(|ui| {
             let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            if ui.button(t("OK")).clicked() || enters {
-                answer = Some(Answer::Ok);
-            }
-            if ui.button(t("Browse…")).clicked() {
-                answer = Some(Answer::Browse);
-            }
+            ui.add_enabled_ui(!is_checking, |ui| {
+                if ui.button(t("OK")).clicked() || enters {
+                    answer = Some(Answer::Ok);
+                }
+                if ui.button(t("Browse…")).clicked() {
+                    answer = Some(Answer::Browse);
+                }
+            });
             if ui.button(t("Cancel")).clicked() {
                 answer = Some(Answer::Cancel);
             }
@@ -174,24 +200,30 @@ impl OpenPrompt {
         }
     }
 
-    /// Why the text is no answer, if it is none.
-    fn check(&self, services: &dyn AppServices) -> Option<String> {
-        let path = self.answer();
-        if path.as_os_str().is_empty() || self.kind == PromptKind::FloorPlan {
-            return None;
-        }
-        if path.is_dir() {
-            return Some(t("This is a folder: add the name of a file").into());
-        }
-        if self.kind.opens() {
-            let is_there = services.file_stamp(&path).is_some();
-            return (!is_there).then(|| t("There is no such file").into());
-        }
-        let folder = path
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty())?;
-        (!folder.is_dir()).then(|| t("There is no such folder").into())
+    /// Starts to check the text, beside the window.
+    fn start_check(&mut self, services: &Arc<dyn AppServices>, repaint: &RepaintHandle) {
+        let (kind, path, services) = (self.kind, self.answer(), Arc::clone(services));
+        let check = move || problem_of(kind, &path, &*services);
+        self.check = Some(BackgroundTask::start(repaint, check));
     }
+}
+
+/// Why a path is no answer, if it is none.
+fn problem_of(kind: PromptKind, path: &Path, services: &dyn AppServices) -> Option<String> {
+    if path.as_os_str().is_empty() || kind == PromptKind::FloorPlan {
+        return None;
+    }
+    if path.is_dir() {
+        return Some(t("This is a folder: add the name of a file").into());
+    }
+    if kind.opens() {
+        let is_there = services.file_stamp(path).is_some();
+        return (!is_there).then(|| t("There is no such file").into());
+    }
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())?;
+    (!folder.is_dir()).then(|| t("There is no such folder").into())
 }
 
 #[derive(Clone, Copy)]
