@@ -2,6 +2,7 @@
 
 mod beside;
 mod conformance;
+mod debian_rust;
 mod pack;
 mod prerequisites;
 mod published;

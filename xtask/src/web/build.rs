@@ -1,11 +1,12 @@
 //! Builds engine, page and npm package, and puts page and engine where the command takes them from.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
 use super::sources::{self, PAGE};
-use super::toolchain::{Toolchain, linker, wasm_bindgen};
+use super::tools::{self, linker, wasm_bindgen};
+use crate::debian_rust::DebianRust;
 use crate::step::{command, heading};
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -17,17 +18,12 @@ pub(super) fn page() -> Result<()> {
     let folder = std::env::current_dir()?.join(FOLDER);
     std::fs::create_dir_all(&folder)?;
     heading("tools for browsers");
-    let toolchain = Toolchain::ensure(&folder)?;
+    tools::ensure()?;
+    let rust = DebianRust::ensure()?;
     let bindgen = wasm_bindgen(&folder)?;
     heading("the engine");
-    let flags = format!(
-        "-C target-feature=+simd128 --remap-path-prefix={}=/guideway --remap-path-prefix={}=/cargo",
-        std::env::current_dir()?.display(),
-        cargo_home()?.display()
-    );
-    toolchain
-        .rustc(env!("CARGO"))
-        .args(["rustc", "--locked", "--package", "guideway-web", "--lib"])
+    let flags = format!("-C target-feature=+simd128 {}", rust.remapped_paths()?);
+    rust.cargo(&["rustc", "--locked", "--package", "guideway-web", "--lib"])
         .args(["--crate-type", "cdylib", "--profile", "web"])
         .args(["--target", TARGET, "-Zbuild-std=std,panic_abort"])
         .env("CARGO_TARGET_DIR", folder.join("cargo"))
@@ -56,12 +52,4 @@ pub(super) fn page() -> Result<()> {
     println!("the npm package is in web: npm pack");
     println!("the command shares it as soon as it is built again: guideway share SITE");
     Ok(())
-}
-
-/// Cargo's own folder, whose path must not be in the engine.
-fn cargo_home() -> Result<PathBuf> {
-    let own = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = || Some(PathBuf::from(std::env::var_os("HOME")?).join(".cargo"));
-    own.or_else(home)
-        .context("neither CARGO_HOME nor HOME is set")
 }

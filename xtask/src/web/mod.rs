@@ -3,7 +3,7 @@
 //!
 //! | module | input | output |
 //! |---|---|---|
-//! | `toolchain` | Debian packages | a compiler with the sources of the standard library |
+//! | `tools` | packages | Node, clang, a linker and `wasm-bindgen` |
 //! | `build` | `crates/guideway-web`, `web/` | `crates/guideway/page`, `target/web`, `web/dist` |
 //! | `sources` | the files that the page is made of | their hash, which says whether it is stale |
 //!
@@ -11,7 +11,7 @@
 
 mod build;
 mod sources;
-mod toolchain;
+mod tools;
 
 use anyhow::{Result, bail};
 
