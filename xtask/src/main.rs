@@ -8,6 +8,7 @@ mod prerequisites;
 mod published;
 mod step;
 mod web;
+mod windows;
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::Path;
@@ -33,14 +34,18 @@ cargo xtask fuzz [MINUTES [TARGET...]]
 cargo xtask sanitize    reading of Arrow files, whose decoder has code in C, under AddressSanitizer
 cargo xtask conformance [--quick] [FORMAT...]
                         what is read and written, compared with other implementations; a table
-cargo xtask dist        packages in target/dist/packages: .deb and .tar.xz of the programs and of
-                        the C library, checksums, SBOM
+cargo xtask dist [--windows]
+                        packages in target/dist/packages: .deb and .tar.xz of the programs and of
+                        the C library, checksums, SBOM; .zip and installer for Windows beside them
 cargo xtask header      writes the header of the C interface
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
 cargo xtask web [--test | --check]
                         the page for browsers, which `guideway share` writes; its tests in
                         Chromium; whether it is older than its sources
+cargo xtask windows [--test] [--quick]
+                        the programs for Windows, by MinGW-w64; their tests under Wine; both with
+                        little optimization
 ";
 
 fn main() -> ExitCode {
@@ -56,8 +61,10 @@ fn main() -> ExitCode {
         ("sanitize", []) => sanitize(),
         ("soak", rest) => soak(rest),
         ("dist", []) => pack::run(),
+        ("dist", [arg]) if arg == "--windows" => windows::dist(),
         ("header", []) => header(),
         ("web", rest) => web::run(rest),
+        ("windows", rest) => windows::run(rest),
         ("style", []) => style(""),
         ("style", [word]) => style(word),
         _ => {

@@ -18,9 +18,14 @@ pub struct Binaries {
 }
 
 impl Binaries {
-    /// The programs in a folder of cargo's.
+    /// The programs in a folder of cargo's, for this system.
     pub fn in_folder(folder: &Path) -> Self {
-        let program = |name: &str| folder.join(format!("{name}{}", env::consts::EXE_SUFFIX));
+        Self::with_suffix(folder, env::consts::EXE_SUFFIX)
+    }
+
+    /// The programs in a folder of cargo's, with the suffix of their system.
+    pub fn with_suffix(folder: &Path, suffix: &str) -> Self {
+        let program = |name: &str| folder.join(format!("{name}{suffix}"));
         Self {
             command: program("guideway"),
             window: program("guideway-window"),

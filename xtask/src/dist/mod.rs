@@ -10,6 +10,7 @@
 //! | `sbom` | the crates as a CycloneDX bill of materials |
 //! | `tree` | the files of an installation, below a folder |
 //! | `package` | a `.deb` and a `.tar.xz` of that tree, and the checksums |
+//! | `windows` | the folder, the zip and the installer for Windows |
 
 mod build;
 mod dependencies;
@@ -18,6 +19,7 @@ mod licenses;
 mod package;
 mod sbom;
 mod tree;
+mod windows;
 
 pub use build::{Binaries, release, release_library, remapped_paths};
 pub use dependencies::{Dependency, dependencies};
@@ -26,3 +28,4 @@ pub use licenses::notices;
 pub use package::{Compression, Package, archive, checksums, deb};
 pub use sbom::sbom;
 pub use tree::{stage, stage_notices};
+pub use windows::{WINDOWS, installer, stage_windows, zip};

@@ -13,7 +13,7 @@ use super::{Binaries, Library};
 /// The compression of a package.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compression {
-    /// For releases.
+    /// For releases: as small as the format gets by LZMA, zips by deflate.
     Xz,
     /// For tests, which build packages in a second.
     Fast,
@@ -170,7 +170,7 @@ fn newest_glibc(program: &[u8]) -> Option<(u32, u32)> {
     versions.max()
 }
 
-fn run(command: &mut Command) -> Result<()> {
+pub(super) fn run(command: &mut Command) -> Result<()> {
     said(command).map(drop)
 }
 
