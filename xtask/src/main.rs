@@ -9,6 +9,7 @@ mod published;
 mod step;
 mod web;
 mod windows;
+mod workflows;
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::Path;
@@ -109,6 +110,8 @@ fn checks() -> Result<()> {
     python_package(&prerequisites::python()?)?;
     heading("conformance, a few files per format");
     conformance::run(&["--quick".to_owned()])?;
+    heading("workflows of the forge");
+    workflows::lint()?;
     heading("packages of the crates");
     published::check()?;
     heading("licenses, sources and bans");
