@@ -2,13 +2,16 @@
 
 use guideway_layout::RunPoints;
 use guideway_scene::Scene;
-use guideway_spline::{Bounds, Point, Real, greater, lesser};
+use guideway_spline::{Bounds, Point, Real, greater, lesser, uniform};
 use rayon::prelude::*;
 
 use crate::{Tile, TileGrid};
 
 /// Paths from which on all threads filter them.
 const MANY_PATHS: usize = 1 << 12;
+
+/// Most halvings of a segment: enough for one across 2^16 tiles.
+const MAX_HALVINGS: u32 = 18;
 
 /// The shown paths of a scene over a grid.
 #[derive(Clone, Copy)]
@@ -92,10 +95,26 @@ impl Descent<'_> {
     }
 }
 
-/// Returns `true` if the hull of a segment meets a square.
+/// Returns `true` if a segment may meet a square.
 fn has_segment_in<T: Real>(points: &[Point<T>], square: Bounds<f64>) -> bool {
     let mut segments = points.array_windows();
-    segments.any(|segment: &[Point<T>; 4]| segment_hull(segment).intersects(square))
+    segments.any(|segment: &[Point<T>; 4]| {
+        segment_hull(segment).intersects(square)
+            && meets(&segment.map(Point::to_f64), square, MAX_HALVINGS)
+    })
+}
+
+/// Returns `true` if a segment may meet a square, by the hulls of parts of it that are small beside
+/// the square. The hull of a long diagonal line is mostly empty.
+fn meets(segment: &[Point<f64>; 4], square: Bounds<f64>, halvings: u32) -> bool {
+    let hull = segment_hull(segment);
+    let size = hull.size();
+    let is_small = size.x.max(size.y) <= square.size().x / 4.0;
+    hull.intersects(square)
+        && (is_small || halvings == 0 || {
+            let mut halves = uniform::halves(segment).into_iter();
+            halves.any(|half| meets(&half, square, halvings - 1))
+        })
 }
 
 /// Box of the control points of a segment.

@@ -220,7 +220,7 @@ fn a_run_that_was_stopped_makes_the_same_archive() {
         Content::Raster(Box::new(renderer.unwrap()))
     };
     let vector = || Content::Vector(VectorOptions::default());
-    check_stops(&density, 31);
+    check_stops(&density, 12);
     check_stops(&vector, 6);
 }
 
