@@ -17,6 +17,17 @@ pub enum TileError {
         /// Name of the method.
         method: &'static str,
     },
+    /// Density shading was asked for single tiles.
+    #[error("density shading takes its colors from all tiles of a zoom, not from single ones")]
+    SingleDensity,
+    /// A zoom has more tiles than were asked for.
+    #[error("zoom {zoom} has more than {limit} tiles that paths touch")]
+    TooMany {
+        /// The zoom.
+        zoom: u8,
+        /// Most tiles.
+        limit: usize,
+    },
     /// The journal could not be read or written.
     #[error("the file of unfinished tiles failed: {0}")]
     Journal(#[from] io::Error),
@@ -33,6 +44,11 @@ impl From<TileError> for UserError {
                 "unsupported",
                 "Use `--method cpu`, or omit `--shade density`",
             ),
+            TileError::SingleDensity => (
+                "unsupported",
+                "Make them all by the command `guideway tiles --shade density`",
+            ),
+            TileError::TooMany { .. } => ("limit", "Ask for fewer zooms"),
             TileError::Journal(_) => (
                 "journal",
                 "Free some space on its disk and run the command again: it goes on where it \

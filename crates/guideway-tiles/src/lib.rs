@@ -15,6 +15,7 @@
 //! | `descent` | finds the blocks of a zoom that paths meet |
 //! | `raster`, `png_tile` | draws a block and cuts it into PNG tiles |
 //! | `vector` | flattens the paths of a tile within an error, and encodes them |
+//! | `tiler` | [`Tiler`]: draws tiles by their addresses |
 //! | `pyramid` | makes all tiles of some zooms, with progress and cancellation |
 //! | `archive` | the journal of finished tiles, and the PMTiles file |
 //!
@@ -31,6 +32,7 @@ mod png_tile;
 mod pyramid;
 mod raster;
 mod tile;
+mod tiler;
 mod vector;
 
 pub use archive::{ArchiveInfo, ArchiveSize, Journal};
@@ -40,4 +42,5 @@ pub use place::place;
 pub use pyramid::{Content, Made, Pyramid};
 pub use raster::{Png, TileRenderer};
 pub use tile::{MAX_ZOOM, TILE_PX, Tile};
+pub use tiler::Tiler;
 pub use vector::{EXTENT, VectorOptions, VectorTile, draw_vector_tile};

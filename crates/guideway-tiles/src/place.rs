@@ -1,6 +1,7 @@
 //! Places a layout on the map of the earth, where it has a place there, and chooses its grid.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use guideway_layout::{GeoOrigin, Geometry, Layout, WrittenCurves};
 use guideway_spline::{Point, Runs, uniform};
@@ -20,11 +21,12 @@ const MAX_LATITUDE_DEG: f64 = 85.051_128_779_806_6;
 
 /// Chooses the grid of a layout. A layout with a place on earth gets the grid of the earth, and its
 /// curves and widths are mapped there; any other one, or all if `on_plane`, a square around it.
-pub fn place(mut layout: Layout, on_plane: bool) -> (Layout, TileGrid) {
+pub fn place(layout: Arc<Layout>, on_plane: bool) -> (Arc<Layout>, TileGrid) {
     match layout.geo_origin.filter(|_| !on_plane) {
         Some(origin) => {
+            let mut layout = Arc::unwrap_or_clone(layout);
             map_to_earth(&mut layout, origin);
-            (layout, TileGrid::EARTH)
+            (Arc::new(layout), TileGrid::EARTH)
         }
         None => {
             let grid = TileGrid::around(layout.paths.hull_bounds());
@@ -127,7 +129,8 @@ mod tests {
             ..NewPath::default()
         });
         layout.paths.set_width_m(vec![2.0]);
-        let (placed, grid) = place(layout.clone(), false);
+        let layout = Arc::new(layout);
+        let (placed, grid) = place(Arc::clone(&layout), false);
         assert_eq!(grid, TileGrid::EARTH);
         let per_degree_m = origin.meters_per_degree();
         // A point on the line: its degrees are linear in meters.

@@ -14,7 +14,7 @@ use crate::{Tile, TileError, TileGrid};
 
 /// Zooms from a block to its tiles: 8 x 8 tiles, or 2048 x 2048 pixels, are drawn at once. Larger
 /// ones take more memory, smaller ones visit the scene more often.
-const BLOCK_ZOOMS: u8 = 3;
+pub(crate) const BLOCK_ZOOMS: u8 = 3;
 
 /// Kind of the tiles.
 pub enum Content {

@@ -39,6 +39,15 @@ impl Tile {
         all
     }
 
+    /// The tile, some zooms above, that this one is a part of.
+    pub(crate) fn above(self, zooms: u8) -> Self {
+        Self {
+            z: self.z - zooms,
+            x: self.x >> zooms,
+            y: self.y >> zooms,
+        }
+    }
+
     /// All tiles, some zooms below, that cover this one, in the order of their numbers.
     pub(crate) fn descendants(self, zooms: u8) -> Vec<Self> {
         let mut tiles = vec![self];
@@ -114,7 +123,7 @@ mod tests {
             assert!(ids.eq(first..first + 16), "{parent:?}");
             assert_eq!(parent.last_id(2), first + 15);
             for tile in parent.descendants(2) {
-                assert_eq!((tile.x >> 2, tile.y >> 2), (parent.x, parent.y));
+                assert_eq!(tile.above(2), parent);
             }
         }
     }

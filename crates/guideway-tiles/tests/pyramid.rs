@@ -1,4 +1,5 @@
-//! Raster tiles against one large picture, and runs that are stopped and go on.
+//! Raster tiles against one large picture, tiles by their addresses, and runs that are stopped and
+//! go on.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
 
@@ -16,8 +17,8 @@ use guideway_scene::{
 };
 use guideway_spline::{Point, Runs};
 use guideway_tiles::{
-    ArchiveInfo, Content, Journal, Made, Pyramid, TILE_PX, Tile, TileGrid, TileRenderer,
-    VectorOptions, place,
+    ArchiveInfo, Content, Journal, Made, Pyramid, TILE_PX, Tile, TileError, TileGrid, TileRenderer,
+    Tiler, VectorOptions, draw_vector_tile, place,
 };
 
 /// Halls of a data set, and curves far larger than a tile.
@@ -56,11 +57,8 @@ fn push(layout: &mut Layout, id: &str, runs: &Runs) {
 }
 
 fn scene(options: &SceneOptions) -> (Arc<Scene>, TileGrid) {
-    let (layout, grid) = place(layout(), false);
-    (
-        Arc::new(Scene::new(Arc::new(layout), options).unwrap()),
-        grid,
-    )
+    let (layout, grid) = place(Arc::new(layout()), false);
+    (Arc::new(Scene::new(layout, options).unwrap()), grid)
 }
 
 fn pixels(png: &[u8]) -> Vec<[u8; 4]> {
@@ -156,6 +154,80 @@ fn tiles_are_windows_of_one_large_picture() {
     check(&colors, Shading::Color, 6);
 }
 
+fn raster(scene: &Arc<Scene>, grid: TileGrid, shading: Shading) -> Box<TileRenderer> {
+    let style = Style {
+        shading,
+        ..Style::default()
+    };
+    let scene = Arc::clone(scene);
+    Box::new(TileRenderer::new(&Cpu, scene, grid, style, &Budget::default()).unwrap())
+}
+
+/// Compares tiles that are drawn in one call, in disorder and some twice, with each by itself.
+fn check_addresses(
+    scene: &Arc<Scene>,
+    grid: TileGrid,
+    content: Content,
+    mut alone: impl FnMut(Tile) -> Option<Vec<u8>>,
+) {
+    let (mut tiler, cancel) = (
+        Tiler::new(Arc::clone(scene), grid, content).unwrap(),
+        Cancel::default(),
+    );
+    let mut tiles = vec![Tile::WORLD];
+    for zoom in [2, 5, 6] {
+        let touched = tiler.touched(zoom, 1 << 12).unwrap();
+        assert!(touched.is_sorted_by_key(|tile| tile.id()));
+        // All tiles of some blocks, and few of others.
+        let is_chosen = |i: &usize| i % 256 < 128 || i % 37 == 0;
+        tiles.extend((0..touched.len()).filter(is_chosen).map(|i| touched[i]));
+    }
+    let count = tiles.len();
+    tiles.extend_from_within(count / 3..count / 2);
+    tiles.reverse();
+    let drawn = tiler.draw(&tiles, &cancel).unwrap();
+    let shown = drawn.iter().filter(|tile| tile.is_some()).count();
+    assert!(
+        shown > count / 2 && drawn.len() == tiles.len(),
+        "{shown} of {count}"
+    );
+    for (tile, drawn) in tiles.into_iter().zip(drawn) {
+        assert!(drawn == alone(tile), "{tile:?}");
+    }
+    let all = tiler.touched(5, usize::MAX).unwrap();
+    for y in 0..32 {
+        for tile in (0..32).map(|x| Tile::new(5, x, y).unwrap()) {
+            assert!(alone(tile).is_none() || all.contains(&tile), "{tile:?}");
+        }
+    }
+    let too_many = tiler.touched(5, all.len() - 1);
+    assert!(matches!(too_many, Err(TileError::TooMany { zoom: 5, .. })));
+    cancel.set();
+    assert!(tiler.draw(&all, &cancel).is_err());
+}
+
+#[test]
+fn tiles_of_one_call_are_those_of_many() {
+    let (scene, grid) = scene(&SceneOptions::default());
+    let content = Content::Raster(raster(&scene, grid, Shading::Color));
+    let mut renderer = raster(&scene, grid, Shading::Color);
+    check_addresses(&scene, grid, content, |tile| {
+        let drawn = renderer.draw(tile, 0, None, &Cancel::default());
+        drawn.unwrap().remove(0).1
+    });
+    let options = VectorOptions {
+        max_paths: 50,
+        ..VectorOptions::default()
+    };
+    let content = Content::Vector(options.clone());
+    check_addresses(&scene, grid, content, |tile| {
+        draw_vector_tile(&scene, &grid, tile, &options).mvt
+    });
+    let density = raster(&scene, grid, Shading::Density(ToneMap::Log));
+    let refused = Tiler::new(scene, grid, Content::Raster(density));
+    assert!(matches!(refused, Err(TileError::SingleDensity)));
+}
+
 /// Makes an archive; stops after some blocks and goes on with a new journal object.
 fn archive(content: &dyn Fn() -> Content, stop_after: usize) -> (Vec<u8>, usize) {
     let (scene, grid) = scene(&SceneOptions::default());
@@ -212,12 +284,7 @@ fn archive(content: &dyn Fn() -> Content, stop_after: usize) -> (Vec<u8>, usize)
 fn a_run_that_was_stopped_makes_the_same_archive() {
     let density = || {
         let (scene, grid) = scene(&SceneOptions::default());
-        let style = Style {
-            shading: Shading::Density(ToneMap::Log),
-            ..Style::default()
-        };
-        let renderer = TileRenderer::new(&Cpu, scene, grid, style, &Budget::default());
-        Content::Raster(Box::new(renderer.unwrap()))
+        Content::Raster(raster(&scene, grid, Shading::Density(ToneMap::Log)))
     };
     let vector = || Content::Vector(VectorOptions::default());
     check_stops(&density, 12);

@@ -30,8 +30,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     plan(args.inputs.len(), &[2.0, 0.3, 20.0, 0.5]);
     let (layout, _) = input::read_all(&args.inputs, out)?;
     let preparing = out.progress("preparing the scene");
-    let (layout, grid) = place(layout, args.plane);
-    let scene = Arc::new(Scene::new(Arc::new(layout), &scene_options)?);
+    let (layout, grid) = place(Arc::new(layout), args.plane);
+    let scene = Arc::new(Scene::new(layout, &scene_options)?);
     let zooms = args.zoom.clone().unwrap_or_else(|| {
         let first = scene.bounds().map_or(0, |bounds| grid.fitting_zoom(bounds));
         first..=(first + MORE_ZOOMS).min(MAX_ZOOM)
