@@ -60,8 +60,9 @@ pub(super) fn curve_type() -> DataType {
 fn curve_fields() -> Fields {
     let numbers = || list_type(DataType::Float64);
     Fields::from(vec![
-        Field::new(DEGREE, DataType::UInt32, false),
-        Field::new(KNOTS, numbers(), false),
+        // Null in rows without a curve, which the writer of Parquet in pyarrow refuses otherwise.
+        Field::new(DEGREE, DataType::UInt32, true),
+        Field::new(KNOTS, numbers(), true),
         Field::new(WEIGHTS, numbers(), true),
         Field::new(POINTS, list_type(point_type()), true),
     ])
