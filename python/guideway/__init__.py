@@ -17,7 +17,10 @@ from ._guideway import (
     Route,
     RouteStep,
     Table,
+    Tiler,
+    check_many,
     open,
+    tiles,
 )
 
 __all__ = [
@@ -30,5 +33,8 @@ __all__ = [
     "Route",
     "RouteStep",
     "Table",
+    "Tiler",
+    "check_many",
     "open",
+    "tiles",
 ]

@@ -1,6 +1,8 @@
 import os
-from collections.abc import Callable, Sequence
-from typing import Any, Literal, Protocol, final
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Literal, Protocol, SupportsIndex, TypedDict, final, overload
+
+from typing_extensions import Unpack
 
 __all__ = [
     "Change",
@@ -12,7 +14,10 @@ __all__ = [
     "Route",
     "RouteStep",
     "Table",
+    "Tiler",
+    "check_many",
     "open",
+    "tiles",
 ]
 
 class _ArrowStream(Protocol):
@@ -161,6 +166,10 @@ class Layout:
     def from_arrow(
         table: _ArrowStream, *, progress: Callable[[float], object] | None = None
     ) -> Layout: ...
+    @staticmethod
+    def from_tables(edges: _ArrowStream, nodes: _ArrowStream) -> Layout:
+        """A layout of straight edges, from the tables of CSV files."""
+
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
     def __len__(self) -> int: ...
     @property
@@ -169,6 +178,10 @@ class Layout:
     def levels(self) -> list[str]: ...
     @property
     def vehicle_types(self) -> list[str]: ...
+    @property
+    def on_earth(self) -> bool:
+        """Whether the layout has a place on earth."""
+
     @property
     def length_m(self) -> float: ...
     @property
@@ -180,6 +193,15 @@ class Layout:
     def nodes(self) -> Table: ...
     @property
     def stations(self) -> Table: ...
+    def features(
+        self,
+        kind: Literal["edges", "nodes", "stations"],
+        *,
+        tolerance_m: float = 0.01,
+        on_earth: bool = False,
+    ) -> Table:
+        """Elements with a GeoArrow column `geometry`, in meters or on earth in degrees."""
+
     def sample(self, spacing_m: float) -> Table: ...
     def check(
         self, *, at_least: Literal["info", "warning", "error"] = "info"
@@ -228,3 +250,69 @@ def open(
     progress: Callable[[float], object] | None = None,
 ) -> Layout:
     """Reads a layout of any format; the content decides which."""
+
+def check_many(
+    paths: Iterable[str | os.PathLike[str]],
+    *,
+    at_least: Literal["info", "warning", "error"] = "info",
+    progress: Callable[[float], object] | None = None,
+) -> Table:
+    """The findings of many files as a table; a file that cannot be read is an error in it."""
+
+class _TilerOptions(TypedDict, total=False):
+    content: Literal["raster", "vector"]
+    color_by: str | None
+    level: str | None
+    columns: Sequence[str] | None
+    max_paths: int | None
+    plane: bool
+    grid: tuple[float, float, float] | None
+
+@final
+class Tiler:
+    """Draws tiles of a layout by their addresses: a worker makes one and keeps it."""
+
+    def __new__(
+        cls,
+        source: Layout | _ArrowStream,
+        *,
+        content: Literal["raster", "vector"] = "raster",
+        color_by: str | None = None,
+        level: str | None = None,
+        columns: Sequence[str] | None = None,
+        max_paths: int | None = None,
+        plane: bool = False,
+        grid: tuple[float, float, float] | None = None,
+    ) -> Tiler: ...
+    @property
+    def grid(self) -> tuple[float, float, float] | None:
+        """Upper left corner and side in meters of the square of zoom 0; `None` on earth."""
+
+    def addresses(self, first_zoom: int, last_zoom: int) -> Table:
+        """The tiles of some zooms that paths may touch: columns `z`, `x`, `y`."""
+
+    @overload
+    def draw(self, z: SupportsIndex, x: SupportsIndex, y: SupportsIndex) -> bytes | None: ...
+    @overload
+    def draw(
+        self, z: _Numbers, x: Iterable[SupportsIndex], y: Iterable[SupportsIndex]
+    ) -> list[bytes | None]: ...
+
+_Numbers = SupportsIndex | Iterable[SupportsIndex]
+
+@overload
+def tiles(
+    source: Layout | _ArrowStream,
+    z: SupportsIndex,
+    x: SupportsIndex,
+    y: SupportsIndex,
+    **options: Unpack[_TilerOptions],
+) -> bytes | None: ...
+@overload
+def tiles(
+    source: Layout | _ArrowStream,
+    z: _Numbers,
+    x: Iterable[SupportsIndex],
+    y: Iterable[SupportsIndex],
+    **options: Unpack[_TilerOptions],
+) -> list[bytes | None]: ...

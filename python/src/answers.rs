@@ -1,9 +1,25 @@
 //! Findings, routes, changes and losses as Python objects whose attributes cannot be set.
 
 use guideway::formats::Losses;
-use guideway::layout::{self, Change as Kind, Changes, Diagnostic, ElementChange, Layout};
+use guideway::layout::{
+    self, Change as Kind, Changes, Diagnostic, ElementChange, Layout, Severity,
+};
 use guideway::network;
 use pyo3::prelude::*;
+
+use crate::error::bad_argument;
+
+/// The severity of a name.
+pub(crate) fn severity(name: &str) -> PyResult<Severity> {
+    let all = [Severity::Info, Severity::Warning, Severity::Error];
+    let named = all
+        .into_iter()
+        .find(|severity| severity.to_string() == name);
+    named.ok_or_else(|| {
+        let remedy = "Choose \"info\", \"warning\" or \"error\"";
+        bad_argument(format!("unknown severity `{name}`"), remedy)
+    })
+}
 
 /// A finding of `Layout.check`.
 #[pyclass(frozen, get_all, module = "guideway")]

@@ -5,16 +5,18 @@ use std::sync::{Arc, OnceLock};
 
 use guideway::arrow::{collected_batches, read_batches};
 use guideway::formats::ReadOptions;
-use guideway::layout::{CompareOptions, Layout, Severity, changes, near_names};
+use guideway::layout::{CompareOptions, Layout, changes};
 use guideway::network::{RouteOptions, Router, build};
 use guideway::scene::{Scene, SceneOptions};
 use guideway::script::Script;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule, PyDict};
 
-use crate::answers::{Change, Finding, Loss, Route};
+use crate::answers::{Change, Finding, Loss, Route, severity};
 use crate::build_args::BuildArgs;
 use crate::error::{bad_argument, exception};
+use crate::features::features;
+use crate::from_tables::joined;
 use crate::picture::{PyPicture, RenderArgs};
 use crate::read::{options, target};
 use crate::signals::Watch;
@@ -38,6 +40,11 @@ impl PyLayout {
         }
     }
 
+    /// The layout, shared.
+    pub(crate) fn shared(&self) -> Arc<Layout> {
+        Arc::clone(&self.layout)
+    }
+
     fn scene(&self) -> PyResult<Arc<Scene>> {
         if let Some(scene) = self.scene.get() {
             return Ok(Arc::clone(scene));
@@ -56,7 +63,7 @@ impl PyLayout {
     /// The columns are those of `docs/arrow-format.md`; only `control_points` is required.
     #[staticmethod]
     #[pyo3(signature = (table, *, progress = None))]
-    fn from_arrow(
+    pub(crate) fn from_arrow(
         py: Python<'_>,
         table: &Bound<'_, PyAny>,
         progress: Option<Py<PyAny>>,
@@ -65,6 +72,24 @@ impl PyLayout {
         let watch = Watch::new(progress);
         let read = py.detach(|| read_batches(reader, &options(&watch)));
         Ok(Self::of(watch.result(read.map_err(exception))?))
+    }
+
+    /// A layout of straight edges from a table of edges (`id`, `start_node`, `end_node`) and one of
+    /// nodes (`id`, and `x_m`, `y_m` or `x`, `y`), as CSV files have them. `direction`, `level` and
+    /// other columns are kept.
+    #[staticmethod]
+    fn from_tables(
+        py: Python<'_>,
+        edges: &Bound<'_, PyAny>,
+        nodes: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let (edges, nodes) = (from_object(edges)?, from_object(nodes)?);
+        let watch = Watch::new(None);
+        let read = py.detach(|| {
+            let joined = joined(edges, nodes)?;
+            read_batches(joined, &options(&watch)).map_err(exception)
+        });
+        Ok(Self::of(watch.result(read)?))
     }
 
     /// The whole layout as one Arrow table, from which `from_arrow` makes it again.
@@ -111,6 +136,12 @@ impl PyLayout {
         self.layout.vehicle_type_names().into_iter().collect()
     }
 
+    /// Whether the layout has a place on earth.
+    #[getter]
+    fn on_earth(&self) -> bool {
+        self.layout.geo_origin.is_some()
+    }
+
     /// Length of all edges in meters.
     #[getter]
     fn length_m(&self, py: Python<'_>) -> f64 {
@@ -129,36 +160,38 @@ impl PyLayout {
     /// properties in SI units.
     #[getter]
     fn edges(&self, py: Python<'_>) -> PyResult<Table> {
-        py.detach(|| tables::edges(&self.layout, None))
+        py.detach(|| tables::edge_columns(&self.layout, None).table())
     }
 
     /// The edges that a vehicle type may use, with the values that hold for it.
     fn edges_for(&self, py: Python<'_>, vehicle_type: &str) -> PyResult<Table> {
-        let known = self.layout.vehicle_type_names();
-        if !known.contains(vehicle_type) {
-            let near = near_names(vehicle_type, known.iter().copied());
-            let known: Vec<&str> = match near.is_empty() {
-                true => known.into_iter().collect(),
-                false => near,
-            };
-            return Err(bad_argument(
-                format!("the layout has no vehicle type `{vehicle_type}`"),
-                format!("Did you mean {}?", known.join(", ")),
-            ));
-        }
-        py.detach(|| tables::edges(&self.layout, Some(vehicle_type)))
+        py.detach(|| tables::edge_columns_for(&self.layout, vehicle_type)?.table())
     }
 
     /// The nodes as a table: identifier, position, level, and the properties in SI units.
     #[getter]
     fn nodes(&self, py: Python<'_>) -> PyResult<Table> {
-        py.detach(|| tables::nodes(&self.layout))
+        py.detach(|| tables::node_columns(&self.layout).table())
     }
 
     /// The stations as a table: identifier, position, level, nodes, and the properties in SI units.
     #[getter]
     fn stations(&self, py: Python<'_>) -> PyResult<Table> {
-        py.detach(|| tables::stations(&self.layout))
+        py.detach(|| tables::station_columns(&self.layout).table())
+    }
+
+    /// `"edges"`, `"nodes"` or `"stations"` as a table with a column `geometry` in the types of
+    /// GeoArrow: lines within `tolerance_m` of the curves, or points. In meters of the layout, or
+    /// with `on_earth=True` in degrees of longitude and latitude.
+    #[pyo3(signature = (kind, *, tolerance_m = 0.01, on_earth = false))]
+    fn features(
+        &self,
+        py: Python<'_>,
+        kind: &str,
+        tolerance_m: f64,
+        on_earth: bool,
+    ) -> PyResult<Table> {
+        py.detach(|| features(&self.layout, kind, tolerance_m, on_earth)?.table())
     }
 
     /// Points along every edge as a table, at most `spacing_m` apart along the curve: row and
@@ -166,19 +199,6 @@ impl PyLayout {
     ///
     /// Points are within 0.1 mm of their curve.
     fn sample(&self, py: Python<'_>, spacing_m: f64) -> PyResult<Table> {
-        /// Most points of one call.
-        const MAX_POINTS: f64 = 1e9;
-        if !(spacing_m > 0.0 && spacing_m.is_finite()) {
-            let remedy = "Give a distance in meters above 0";
-            return Err(bad_argument(format!("a spacing of {spacing_m} m"), remedy));
-        }
-        let points = self.length_m(py) / spacing_m + self.layout.paths.len() as f64;
-        if points > MAX_POINTS {
-            return Err(bad_argument(
-                format!("a spacing of {spacing_m} m makes {points:.0} points, limit {MAX_POINTS}"),
-                "Give a greater distance",
-            ));
-        }
         py.detach(|| tables::samples(&self.layout, spacing_m))
     }
 
@@ -186,14 +206,7 @@ impl PyLayout {
     /// `"info"`, `"warning"` or `"error"`.
     #[pyo3(signature = (*, at_least = "info"))]
     fn check(&self, py: Python<'_>, at_least: &str) -> PyResult<Vec<Finding>> {
-        let levels = [Severity::Info, Severity::Warning, Severity::Error];
-        let wanted = levels
-            .into_iter()
-            .find(|level| level.to_string() == at_least);
-        let wanted = wanted.ok_or_else(|| {
-            let remedy = "Choose \"info\", \"warning\" or \"error\"";
-            bad_argument(format!("unknown severity `{at_least}`"), remedy)
-        })?;
+        let wanted = severity(at_least)?;
         let found = py.detach(|| guideway::check(&self.layout));
         let found = found.iter().filter(|finding| finding.severity >= wanted);
         Ok(found.map(Finding::of).collect())
@@ -215,16 +228,11 @@ impl PyLayout {
         speed_m_s: f64,
         lateral_acceleration_m_s2: Option<f64>,
     ) -> PyResult<Route> {
-        for value in [Some(speed_m_s), lateral_acceleration_m_s2]
-            .into_iter()
-            .flatten()
-        {
+        let given = [Some(speed_m_s), lateral_acceleration_m_s2];
+        for value in given.into_iter().flatten() {
             if !(value > 0.0 && value.is_finite()) {
-                let remedy = "Give a number above 0";
-                return Err(bad_argument(
-                    format!("{value} is no speed or acceleration"),
-                    remedy,
-                ));
+                let message = format!("{value} is no speed or acceleration");
+                return Err(bad_argument(message, "Give a number above 0"));
             }
         }
         let options = RouteOptions {

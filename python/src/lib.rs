@@ -6,20 +6,30 @@
 //! | `layout` | class `Layout`: save, check, route, compare, edit, draw |
 //! | `build_args` | options of networks |
 //! | `tables` | edges, nodes, stations and sampled points as Arrow tables |
+//! | `features` | edges, nodes and stations with GeoArrow geometry |
+//! | `from_tables` | one table of tables of edges and nodes |
 //! | `stream` | the Arrow C stream interface, in and out |
+//! | `tiles` | class `Tiler` and `tiles`: tiles by their addresses |
+//! | `check_many` | findings of many files |
+//! | `items` | arguments that are lists of any kind |
 //! | `answers` | findings, routes and changes as Python objects |
 //! | `picture` | class `Picture`: pixels, PNG, SVG |
 //! | `error`, `signals` | exceptions; Ctrl-C and progress while Rust works |
 
 mod answers;
 mod build_args;
+mod check_many;
 mod error;
+mod features;
+mod from_tables;
+mod items;
 mod layout;
 mod picture;
 mod read;
 mod signals;
 mod stream;
 mod tables;
+mod tiles;
 
 use pyo3::prelude::*;
 
@@ -28,6 +38,8 @@ use pyo3::prelude::*;
 mod _guideway {
     #[pymodule_export]
     use crate::answers::{Change, Finding, Loss, Route, RouteStep};
+    #[pymodule_export]
+    use crate::check_many::check_many;
     #[pymodule_export]
     use crate::error::GuidewayError;
     #[pymodule_export]
@@ -38,4 +50,6 @@ mod _guideway {
     use crate::read::open;
     #[pymodule_export]
     use crate::tables::Table;
+    #[pymodule_export]
+    use crate::tiles::{Tiler, tiles};
 }

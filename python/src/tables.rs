@@ -9,7 +9,9 @@ use arrow_array::{
     StringArray, UInt32Array,
 };
 use arrow_schema::{ArrowError, Field, Schema};
-use guideway::layout::{Attribute, Attributes, Direction, Layout, RunPoints, Value, Values};
+use guideway::layout::{
+    Attribute, Attributes, Direction, Layout, RunPoints, Value, Values, near_names,
+};
 use guideway::spline::{Point, flatten_run};
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
@@ -19,6 +21,9 @@ use crate::stream::to_capsule;
 
 /// Largest distance of sampled points from their curve.
 const SAMPLE_TOLERANCE_M: f64 = 1e-4;
+
+/// Most sampled points of one call.
+const MAX_SAMPLES: f64 = 1e9;
 
 /// A table with the Arrow C stream interface: `pyarrow.table(t)`, `polars.DataFrame(t)` and
 /// `duckdb.sql("from t")` take it.
@@ -60,14 +65,20 @@ impl Table {
 
 /// Columns under construction.
 #[derive(Default)]
-struct Columns {
+pub(crate) struct Columns {
     fields: Vec<Field>,
     arrays: Vec<ArrayRef>,
 }
 
 impl Columns {
-    fn push(&mut self, name: &str, array: impl Array + 'static) {
+    pub(crate) fn push(&mut self, name: &str, array: impl Array + 'static) {
         self.push_with(name, None, Arc::new(array));
+    }
+
+    /// Appends a column of a type of its own.
+    pub(crate) fn push_field(&mut self, field: Field, array: ArrayRef) {
+        self.fields.push(field);
+        self.arrays.push(array);
     }
 
     fn push_with(&mut self, name: &str, unit: Option<&str>, array: ArrayRef) {
@@ -75,8 +86,7 @@ impl Columns {
         if let Some(unit) = unit {
             field.set_metadata(HashMap::from([("unit".to_owned(), unit.to_owned())]));
         }
-        self.fields.push(field);
-        self.arrays.push(array);
+        self.push_field(field, array);
     }
 
     /// Columns of a table of the layout. Those whose name is taken are `attribute.NAME`.
@@ -129,7 +139,7 @@ impl Columns {
         self.push_with(&name, unit, array);
     }
 
-    fn table(self) -> PyResult<Table> {
+    pub(crate) fn table(self) -> PyResult<Table> {
         let schema = Arc::new(Schema::new(self.fields));
         let failed = |error: ArrowError| bad_argument(error.to_string(), "Report this as a bug");
         let batch = RecordBatch::try_new(schema, self.arrays).map_err(failed)?;
@@ -139,7 +149,7 @@ impl Columns {
 
 /// The edges: identifier, nodes, direction, level, vehicle types, length, then the properties, in
 /// SI units. With a vehicle type: only the edges that it may use, with the values that hold for it.
-pub(crate) fn edges(layout: &Layout, vehicle_type: Option<&str>) -> PyResult<Table> {
+pub(crate) fn edge_columns(layout: &Layout, vehicle_type: Option<&str>) -> Columns {
     let paths = &layout.paths;
     let types = paths.vehicle_types();
     let is_open = |row: &u32| {
@@ -179,11 +189,31 @@ pub(crate) fn edges(layout: &Layout, vehicle_type: Option<&str>) -> PyResult<Tab
         };
         columns.push_attribute(column, rows.iter().map(value));
     }
-    columns.table()
+    columns
+}
+
+/// The edges that a vehicle type may use.
+///
+/// # Errors
+/// When the layout has no such type.
+pub(crate) fn edge_columns_for(layout: &Layout, vehicle_type: &str) -> PyResult<Columns> {
+    let known = layout.vehicle_type_names();
+    if known.contains(vehicle_type) {
+        return Ok(edge_columns(layout, Some(vehicle_type)));
+    }
+    let near = near_names(vehicle_type, known.iter().copied());
+    let known: Vec<&str> = match near.is_empty() {
+        true => known.into_iter().collect(),
+        false => near,
+    };
+    Err(bad_argument(
+        format!("the layout has no vehicle type `{vehicle_type}`"),
+        format!("Did you mean {}?", known.join(", ")),
+    ))
 }
 
 /// The nodes: identifier, position, level, then the properties.
-pub(crate) fn nodes(layout: &Layout) -> PyResult<Table> {
+pub(crate) fn node_columns(layout: &Layout) -> Columns {
     let nodes = &layout.nodes;
     let rows: Vec<u32> = (0..nodes.len() as u32).collect();
     let mut columns = Columns::default();
@@ -198,11 +228,11 @@ pub(crate) fn nodes(layout: &Layout) -> PyResult<Table> {
         level_ids(layout, rows.iter().map(|&row| nodes.level(row))),
     );
     columns.push_attributes(&nodes.attributes, &rows);
-    columns.table()
+    columns
 }
 
 /// The stations: identifier, position, level, nodes, then the properties.
-pub(crate) fn stations(layout: &Layout) -> PyResult<Table> {
+pub(crate) fn station_columns(layout: &Layout) -> Columns {
     let stations = &layout.stations;
     let rows: Vec<u32> = (0..stations.len() as u32).collect();
     let mut columns = Columns::default();
@@ -220,19 +250,31 @@ pub(crate) fn stations(layout: &Layout) -> PyResult<Table> {
     });
     columns.push("nodes", text_lists(lists));
     columns.push_attributes(&stations.attributes, &rows);
-    columns.table()
+    columns
 }
 
 /// Points along every edge, from start to end, at most `spacing_m` apart along the curve: row and
 /// identifier of the edge, distance from its start, position, heading in radians.
 pub(crate) fn samples(layout: &Layout, spacing_m: f64) -> PyResult<Table> {
+    if !(spacing_m > 0.0 && spacing_m.is_finite()) {
+        let remedy = "Give a distance in meters above 0";
+        return Err(bad_argument(format!("a spacing of {spacing_m} m"), remedy));
+    }
+    let lengths_m = layout.paths.iter().map(|path| path.length_m());
+    let points = lengths_m.sum::<f64>() / spacing_m + layout.paths.len() as f64;
+    if points > MAX_SAMPLES {
+        return Err(bad_argument(
+            format!("a spacing of {spacing_m} m makes {points:.0} points, limit {MAX_SAMPLES}"),
+            "Give a greater distance",
+        ));
+    }
     let mut rows = Vec::new();
     let mut values: [Vec<f64>; 4] = Default::default();
     let mut line = Vec::new();
     for path in layout.paths.iter() {
         line.clear();
         for run in path.runs() {
-            flatten(run, &mut line);
+            flatten(run, SAMPLE_TOLERANCE_M, &mut line);
         }
         line.dedup();
         sample(&line, spacing_m, |along_m, at, heading_rad| {
@@ -261,9 +303,10 @@ pub(crate) fn samples(layout: &Layout, spacing_m: f64) -> PyResult<Table> {
     columns.table()
 }
 
-fn flatten(run: RunPoints<'_>, line: &mut Vec<Point<f64>>) {
+/// Appends the vertices of a run of a curve, from which it is at most `tolerance_m` away.
+pub(crate) fn flatten(run: RunPoints<'_>, tolerance_m: f64, line: &mut Vec<Point<f64>>) {
     let points: Vec<Point<f64>> = run.iter().collect();
-    flatten_run(&points, SAMPLE_TOLERANCE_M, &mut |point| line.push(point));
+    flatten_run(&points, tolerance_m, &mut |point| line.push(point));
 }
 
 /// Hands points at equal distances along a polyline, both ends among them, to `at`.

@@ -6,6 +6,8 @@ Tests that need pyarrow, polars, pandas, duckdb or numpy are skipped where it is
 from __future__ import annotations
 
 import io
+import json
+import math
 import pathlib
 
 import guideway
@@ -248,3 +250,204 @@ def test_a_plain_table_becomes_a_picture_and_a_check() -> None:
     layout = guideway.Layout.from_arrow(lines)
     assert len(layout) == 2 and layout.render(size=(64, 64)).drawn == 2
     assert all(finding.severity == "info" for finding in layout.check())
+
+
+def test_tiles_are_png_or_vector_tiles_by_address(site: guideway.Layout) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    tiler = guideway.Tiler(site)
+    addresses = pyarrow.table(tiler.addresses(0, 4))
+    assert addresses.column_names == ["z", "x", "y"] and addresses.slice(0, 1).to_pylist() == [
+        {"z": 0, "x": 0, "y": 0}
+    ]
+    drawn = tiler.draw(addresses["z"], addresses["x"], addresses["y"])
+    shown = [tile for tile in drawn if tile is not None]
+    assert all(tile.startswith(b"\x89PNG") for tile in shown) and len(shown) > len(drawn) / 2
+    for row in [0, 7, len(drawn) - 1]:
+        address = addresses.slice(row, 1).to_pylist()[0]
+        assert guideway.tiles(site, **address) == drawn[row]
+        assert tiler.draw(**address) == drawn[row]
+    assert tiler.draw(4, [0, 0], [0, 0]) == [tiler.draw(4, 0, 0)] * 2
+    colored = guideway.tiles(site, 0, 0, 0, color_by="maxSpeed")
+    assert colored is not None and colored != drawn[0]
+    mvt = guideway.tiles(site, 0, 0, 0, content="vector", columns=["maxSpeed"])
+    assert mvt is not None and b"paths" in mvt and b"maxSpeed" in mvt and b"aisle" in mvt
+    assert tiler.grid is not None and tiler.grid[2] >= 128
+
+
+def test_tiles_of_batches_of_the_paths_near_them_are_those_of_the_whole(
+    site: guideway.Layout,
+) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    whole = guideway.Tiler(site)
+    table = pyarrow.table(site)
+    paths = table.filter(pyarrow.compute.field("guideway.element") == "path")
+    reader = pyarrow.RecordBatchReader.from_batches(paths.schema, paths.to_batches())
+    part = guideway.Tiler(reader, grid=whole.grid)
+    assert part.draw(2, [1, 2], [1, 2]) == whole.draw(2, [1, 2], [1, 2])
+    half = guideway.Tiler(paths.slice(0, 100), grid=whole.grid)
+    assert half.draw(0, 0, 0) != whole.draw(0, 0, 0)
+
+
+def test_tiles_refuse_wrong_arguments(site: guideway.Layout) -> None:
+    for wrong, options in [
+        ("columns", {"columns": ["maxSpeed"]}),
+        ("color_by", {"color_by": "maxSpeed", "content": "vector"}),
+        ("maxspeed", {"color_by": "maxspeed"}),
+        ("grid", {"grid": (0.0, 0.0, 100.0)}),
+        ("roof", {"level": "roof"}),
+        ("content", {"content": "pdf"}),
+    ]:
+        with pytest.raises(guideway.GuidewayError, match=wrong):
+            guideway.Tiler(site, **options)  # type: ignore[arg-type]
+    tiler = guideway.Tiler(site)
+    for wrong, z, x, y in [
+        ("zoom 3", 3, 8, 0),
+        ("Zooms", 29, 0, 0),
+        ("x is neither", 3, -1, 0),
+        ("y is neither", 3, 0, "0"),
+        ("lengths", 3, [0, 1], [0]),
+    ]:
+        with pytest.raises(guideway.GuidewayError, match=wrong):
+            tiler.draw(z, x, y)  # type: ignore[call-overload]
+    with pytest.raises(guideway.GuidewayError, match="zooms"):
+        tiler.addresses(3, 2)
+    with pytest.raises(guideway.GuidewayError, match="28"):
+        tiler.addresses(0, 29)
+    with pytest.raises(TypeError):
+        guideway.tiles(site, 0, 0, 0, colour_by="maxSpeed")  # type: ignore[call-overload]
+
+
+def test_many_files_are_checked_as_one_table(tmp_path: pathlib.Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    data = SITE.read_bytes()
+    faulty = tmp_path / "faulty.lif.json"
+    faulty.write_bytes(data.replace(b'"stationId":"dock-2"', b'"stationId":"dock-1"'))
+    broken = tmp_path / "broken.lif.json"
+    broken.write_bytes(data[: len(data) // 2])
+    paths = [SITE, broken, faulty, tmp_path / "none.lif.json"]
+    shares: list[float] = []
+    table = pyarrow.table(
+        guideway.check_many(paths, at_least="warning", progress=shares.append)
+    ).to_pylist()
+    assert [row["path"] for row in table] == [str(broken), str(faulty), str(paths[3])]
+    assert {row["severity"] for row in table[::2]} == {"error"}
+    assert table[0]["message"] and table[1]["code"] == "duplicate-id" and table[2]["remedy"]
+    found = guideway.open(faulty).check()
+    table = pyarrow.table(guideway.check_many([str(faulty)])).to_pylist()
+    of = ["code", "severity", "element", "line", "column", "message", "remedy"]
+    assert [[row[name] for name in of] for row in table] == [
+        [getattr(finding, name) for name in of] for finding in found
+    ]
+    assert len(guideway.check_many([])) == 0
+    for wrong in ["site.lif.json", [17], 3]:
+        with pytest.raises(guideway.GuidewayError, match="paths"):
+            guideway.check_many(wrong)  # type: ignore[arg-type]
+
+
+def test_features_have_geoarrow_geometry(site: guideway.Layout) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    edges = pyarrow.table(site.features("edges"))
+    geometry = edges.schema.field("geometry")
+    assert geometry.metadata[b"ARROW:extension:name"] == b"geoarrow.linestring"
+    lines = edges["geometry"].to_pylist()
+    lengths = [
+        sum(math.dist(a.values(), b.values()) for a, b in zip(line, line[1:])) for line in lines
+    ]
+    assert lengths == pytest.approx(edges["length_m"].to_pylist(), abs=0.05)
+    coarse = pyarrow.table(site.features("edges", tolerance_m=1.0))["geometry"].to_pylist()
+    assert sum(map(len, coarse)) < sum(map(len, lines))
+    nodes = pyarrow.table(site.features("nodes")).slice(0, 1).to_pylist()[0]
+    assert nodes["geometry"] == {"x": nodes["x_m"], "y": nodes["y_m"]}
+    assert len(site.features("stations")) == len(site.stations)
+    with pytest.raises(guideway.GuidewayError, match="place on earth"):
+        site.features("edges", on_earth=True)
+    with pytest.raises(guideway.GuidewayError, match="called `zones`"):
+        site.features("zones")  # type: ignore[arg-type]
+    with pytest.raises(guideway.GuidewayError, match="tolerance"):
+        site.features("edges", tolerance_m=0.0)
+
+
+def test_geopandas_reads_features_on_earth() -> None:
+    geopandas = pytest.importorskip("geopandas")
+    lane = {"type": "LineString", "coordinates": [[11.5, 48.1], [11.501, 48.1005]]}
+    roads = guideway.open(json.dumps({"type": "Feature", "properties": {}, "geometry": lane}).encode())
+    frame = geopandas.GeoDataFrame.from_arrow(
+        pytest.importorskip("pyarrow").table(roads.features("edges", on_earth=True))
+    )
+    assert frame.crs == "OGC:CRS84" and frame.geom_type.tolist() == ["LineString"]
+    assert frame.total_bounds == pytest.approx([11.5, 48.1, 11.501, 48.1005], abs=1e-9)
+    meters = frame.to_crs(frame.estimate_utm_crs()).length.sum()
+    assert meters == pytest.approx(roads.length_m, rel=1e-3)
+
+
+def lines_as_structs() -> object:
+    pyarrow = pytest.importorskip("pyarrow")
+    point = pyarrow.struct([("x", pyarrow.float64()), ("y", pyarrow.float64())])
+    line = [{"x": -1.0, "y": 0.0}, {"x": 0.0, "y": 0.0}, {"x": 1.0, "y": 0.0}, {"x": 2.0, "y": 0.0}]
+    points = pyarrow.array([line, None, line], pyarrow.list_(point))
+    return pyarrow.table({"id": ["a", "none", "b"], "control_points": points})
+
+
+def test_points_as_structs_and_missing_lists_are_read() -> None:
+    layout = guideway.Layout.from_arrow(lines_as_structs())  # type: ignore[arg-type]
+    assert len(layout) == 2 and layout.length_m == pytest.approx(2.0)
+    found = layout.check(at_least="warning")
+    assert any("none" in finding.element for finding in found), found
+
+
+@pytest.mark.parametrize("compression", ["snappy", "zstd"])
+def test_parquet_files_go_through_pyarrow(
+    site: guideway.Layout, tmp_path: pathlib.Path, compression: str
+) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    parquet = pytest.importorskip("pyarrow.parquet")
+    parquet.write_table(pyarrow.table(site), tmp_path / "site.parquet", compression=compression)
+    again = guideway.Layout.from_arrow(parquet.read_table(tmp_path / "site.parquet"))
+    assert site.diff(again) == []
+
+
+NODES = "id,x,y,kind\n1,0,0,dock\n2,10,0,\n3,10,5,\n"
+EDGES = (
+    "id,start_node,end_node,direction,max_speed,kind\n"
+    "a,1,2,forward,1.5,7\nb,2,3,both,,8\nc,3,1,,0.5,9\n"
+)
+
+
+@pytest.mark.parametrize("library", ["polars", "pandas", "pyarrow.csv"])
+def test_csv_files_of_nodes_and_edges_become_a_layout(library: str) -> None:
+    pytest.importorskip(library)
+    edges, nodes = read_csv(library, EDGES), read_csv(library, NODES)
+    layout = guideway.Layout.from_tables(edges, nodes)  # type: ignore[arg-type]
+    assert len(layout) == 3 and layout.length_m == pytest.approx(15 + math.hypot(10, 5))
+    pyarrow = pytest.importorskip("pyarrow")
+    rows = pyarrow.table(layout.edges).to_pylist()
+    assert [(row["start_node"], row["end_node"]) for row in rows] == [
+        ("1", "2"),
+        ("2", "3"),
+        ("3", "1"),
+    ]
+    assert [row["direction"] for row in rows] == ["forward", "both", "forward"]
+    assert [row["max_speed"] for row in rows] == [1.5, None, 0.5]
+    assert [row["kind"] for row in rows] == [7, 8, 9]
+    places = pyarrow.table(layout.nodes).to_pylist()
+    assert [(at["x_m"], at["y_m"]) for at in places] == [(0, 0), (10, 0), (10, 5)]
+    assert places[0]["kind"] == "dock"
+    route = layout.route("1", "3")
+    assert [step.edge for step in route.steps] == ["a", "b"]
+    for wrong, of_edges, of_nodes in [
+        ("end_node is `4`", EDGES.replace("a,1,2", "a,1,4"), NODES),
+        ("no column `end_node`", EDGES.replace("end_node", "to"), NODES),
+        ("a second node `1`", EDGES, NODES.replace("\n2,", "\n1,")),
+        ("no number in the column `x`", EDGES, NODES.replace("2,10,0", "2,,0")),
+        ("no column `x_m`", EDGES, NODES.replace("x,y", "east,north")),
+    ]:
+        with pytest.raises(guideway.GuidewayError, match=wrong):
+            guideway.Layout.from_tables(
+                read_csv(library, of_edges),  # type: ignore[arg-type]
+                read_csv(library, of_nodes),  # type: ignore[arg-type]
+            )
+
+
+def read_csv(library: str, text: str) -> object:
+    file = io.BytesIO(text.encode())
+    return pytest.importorskip(library).read_csv(file)
