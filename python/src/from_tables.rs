@@ -12,7 +12,7 @@ use arrow_array::{
     Array, ArrayRef, FixedSizeListArray, Float64Array, ListArray, RecordBatch, RecordBatchIterator,
     RecordBatchReader, StringArray, UInt32Array, downcast_integer_array, new_null_array,
 };
-use arrow_buffer::OffsetBuffer;
+use arrow_buffer::{ArrowNativeType, OffsetBuffer};
 use arrow_schema::{ArrowError, DataType, Field, FieldRef, Schema, SchemaRef};
 use guideway::spline::{Point, Runs};
 use pyo3::prelude::*;
@@ -233,7 +233,10 @@ fn text(column: &ArrayRef, row: usize) -> Option<String> {
 fn number(batch: &RecordBatch, name: &str, row: usize) -> PyResult<f64> {
     let column = column(batch, "nodes", name)?.as_ref();
     let found = downcast_integer_array!(
-        column => column.is_valid(row).then(|| column.value(row) as f64),
+        column => {
+            let whole = column.is_valid(row).then(|| column.value(row).to_i64());
+            whole.flatten().map(|whole| whole as f64)
+        },
         DataType::Float64 => {
             let column = column.as_primitive::<Float64Type>();
             column.is_valid(row).then(|| column.value(row))

@@ -141,9 +141,7 @@ fn window_does_not_wait_for_the_disk_of_a_file_to_write() {
     std::fs::write(&project, "").unwrap();
     let mut window = TestWindow::showing(lanes(4));
     let files = window.disk.files.lock().unwrap().clone();
-    let there = files
-        .into_iter()
-        .map(|(_, layout)| (project.clone(), layout));
+    let there = files.into_values().map(|layout| (project.clone(), layout));
     window.disk.files.lock().unwrap().extend(there);
     for (command, name, is_there) in [
         (Command::SaveAs, "a.arrow", false),
