@@ -1,7 +1,14 @@
-//! [`Mutator`]: derives mutants from seeds, equal in every run.
+//! [`Mutator`]: derives mutants from seeds, equal in every run; and the check of a law over them.
 
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use guideway_laws::Target;
 use rand_core::Rng;
 use rand_pcg::Pcg64Mcg;
+
+const MUTANTS: usize = 500;
 
 /// Tokens that often expose defects of readers.
 const ODD: [&[u8]; 16] = [
@@ -23,14 +30,34 @@ const ODD: [&[u8]; 16] = [
     b"\xFF\xFF\xFF\xFF",
 ];
 
+/// The first bytes that break a law, if any.
+pub(crate) fn counterexample(law: fn(&[u8]), seeds: &[Vec<u8>]) -> Option<Vec<u8>> {
+    let mut mutator = Mutator::new(seeds);
+    let mutants = (0..MUTANTS).map(|_| mutator.mutant());
+    let mut all = seeds.iter().cloned().chain(mutants);
+    all.find(|bytes| catch_unwind(AssertUnwindSafe(|| law(bytes))).is_err())
+}
+
+/// Checks the law of a target over its seeds and mutants of them.
+pub(crate) fn assert_law_holds(target: &Target) {
+    let (name, seeds) = (target.name, target.seeds().unwrap());
+    let seeds: Vec<Vec<u8>> = seeds.into_iter().map(|(_, bytes)| bytes).collect();
+    assert!(!seeds.is_empty(), "{name} has no seeds");
+    if let Some(bytes) = counterexample(target.law, &seeds) {
+        let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        fs::write(&file, bytes).unwrap();
+        panic!("{} breaks the law", file.display());
+    }
+}
+
 /// Derives mutants from seeds by random changes with a fixed start value.
-pub(crate) struct Mutator<'a> {
+struct Mutator<'a> {
     seeds: &'a [Vec<u8>],
     random: Pcg64Mcg,
 }
 
 impl<'a> Mutator<'a> {
-    pub(crate) fn new(seeds: &'a [Vec<u8>]) -> Self {
+    fn new(seeds: &'a [Vec<u8>]) -> Self {
         Self {
             seeds,
             random: Pcg64Mcg::new(0x6775_6964_6577_6179),
@@ -38,7 +65,7 @@ impl<'a> Mutator<'a> {
     }
 
     /// A seed after one to four changes.
-    pub(crate) fn mutant(&mut self) -> Vec<u8> {
+    fn mutant(&mut self) -> Vec<u8> {
         let mut bytes = self.seed().to_vec();
         for _ in 0..=self.below(4) {
             self.change(&mut bytes);
