@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 
@@ -23,6 +23,9 @@ const RANDOM: &str = "
 pub(super) struct Wine {
     prefix: PathBuf,
     display: String,
+    /// A program that waits for input: without one the services of Windows end with each program,
+    /// and start anew for the next.
+    session: Option<Child>,
 }
 
 impl Wine {
@@ -37,14 +40,11 @@ impl Wine {
         }
         fs::create_dir_all(&prefix)?;
         let display = screen.display().to_owned();
-        let wine = Self { prefix, display };
-        // Without it the services of Windows would start anew for each program.
-        let server = wine
-            .prepare(Command::new("wineserver").arg("-p"))
-            .status()?;
-        if !server.success() {
-            bail!("wineserver: {server}");
-        }
+        let mut wine = Self {
+            prefix,
+            display,
+            session: None,
+        };
         let made = wine.command("wineboot").arg("--init").status()?;
         if !made.success() {
             bail!("wineboot: {made}");
@@ -59,6 +59,9 @@ impl Wine {
                 .args(["-ladvapi32"])
                 .run()?;
         }
+        let mut waiting = wine.command("cmd");
+        waiting.stdin(Stdio::piped()).stdout(Stdio::null());
+        wine.session = Some(waiting.spawn().context("cannot start Wine")?);
         Ok(wine)
     }
 
@@ -132,5 +135,8 @@ impl Drop for Wine {
         let mut server = Command::new("wineserver");
         // Without programs there is no server, which is an error to it.
         let _ = self.prepare(server.arg("-k")).status();
+        if let Some(session) = &mut self.session {
+            let _ = session.wait();
+        }
     }
 }
