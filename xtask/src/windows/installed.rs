@@ -13,8 +13,11 @@ use super::wine::Wine;
 
 /// Color of the lanes in the window.
 const LANES: [u8; 3] = [0x5a, 0x6b, 0x7f];
-/// Pixels of lanes in the fitted example site; a window without them has fewer than 100.
-const MIN_LANE_PX: usize = 2000;
+/// Color of the stations, which appear when the whole file is read.
+const STATIONS: [u8; 3] = [0xc8, 0x28, 0x78];
+/// Pixels of each color in the fitted example site: half of what was seen. A window without the
+/// site has none.
+const MIN_PX: [([u8; 3], usize); 2] = [(LANES, 2000), (STATIONS, 2000)];
 /// Exit code of an installer that finds its files in use.
 const IN_USE: i32 = 2;
 
@@ -33,7 +36,7 @@ pub(super) fn test(wine: &Wine, screen: &Screen, packages: &Packages) -> Result<
     wine.said("reg", &["copy", user, computer, "/s", "/f"])?;
     let mut window = Window::open(wine, screen, &site)?;
     let outcome = (|| {
-        window.wait_for_lanes(screen)?;
+        window.wait_for_site(screen)?;
         let again = silent(wine, &packages.installer, "")?;
         expect(again, IN_USE, "the installer beside an open window")?;
         let here = format!("_?={}", wine.path(&folder));
@@ -119,23 +122,21 @@ impl Window {
     }
 
     /// Waits until the site is drawn, and keeps a picture of the screen.
-    fn wait_for_lanes(&self, screen: &Screen) -> Result<()> {
+    fn wait_for_site(&self, screen: &Screen) -> Result<()> {
         let file = Path::new(FOLDER).join("window.png");
-        let mut most = 0;
         for () in polls() {
             let picture = screen.picture()?;
-            most = picture.count(LANES).max(most);
-            if most >= MIN_LANE_PX {
+            if MIN_PX
+                .iter()
+                .all(|(color, least)| picture.count(*color) >= *least)
+            {
                 picture.save(&file)?;
                 println!("a double click opens the window: {}", file.display());
                 return Ok(());
             }
         }
         screen.picture()?.save(&file)?;
-        bail!(
-            "the window shows {most} pixels of lanes: {}",
-            file.display()
-        )
+        bail!("the window does not show the site: {}", file.display())
     }
 
     /// Closes the window by its key, also after a failure.
