@@ -180,7 +180,7 @@ class Layout:
     def vehicle_types(self) -> list[str]: ...
     @property
     def on_earth(self) -> bool:
-        """Whether the layout has a place on earth."""
+        """`True` if the layout has a place on earth."""
 
     @property
     def length_m(self) -> float: ...

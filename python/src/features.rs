@@ -21,8 +21,8 @@ const POINT: &str = "geoarrow.point";
 const DEGREES: &str = r#"{"crs": "OGC:CRS84", "crs_type": "authority_code"}"#;
 const PLANE: &str = "{}";
 
-/// The elements of a kind (`edges`, `nodes` or `stations`) with a column `geometry`: lines within `tolerance_m` of their curves, or
-/// points; in meters of the layout, or on earth in degrees.
+/// The elements of a kind (`edges`, `nodes` or `stations`) with a column `geometry`: lines within
+/// `tolerance_m` of their curves, or points; in meters of the layout, or on earth in degrees.
 pub(crate) fn features(
     layout: &Layout,
     kind: &str,

@@ -136,7 +136,7 @@ impl PyLayout {
         self.layout.vehicle_type_names().into_iter().collect()
     }
 
-    /// Whether the layout has a place on earth.
+    /// `True` if the layout has a place on earth.
     #[getter]
     fn on_earth(&self) -> bool {
         self.layout.geo_origin.is_some()
