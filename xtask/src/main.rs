@@ -179,6 +179,10 @@ fn python_package(python: &Path) -> Result<()> {
         "no:cacheprovider",
         "python/tests",
     ])?;
+    // Engines with two workers; a file that is no layout is a finding.
+    let site = "crates/guideway/examples/site.lif.json";
+    run(&["python/examples/ray_tiles.py", site, "0", "6", "2"])?;
+    run(&["python/examples/dask_check.py", "2", site, "README.md"])?;
     // The stubs: consistent, true to the module, and enough for the tests.
     run(&["-m", "mypy.stubtest", "guideway"])?;
     run(&[
@@ -187,7 +191,13 @@ fn python_package(python: &Path) -> Result<()> {
         "--strict",
         "--ignore-missing-imports",
         "python/tests",
-    ])
+    ])?;
+    step::command(python)
+        .args(["-m", "pyright", "--pythonpath"])
+        .args([python])
+        .args(["python/tests"])
+        .env("PYTHONPATH", &packages)
+        .run()
 }
 
 /// Checks the formats crate with each of its formats alone, and the facade with LIF alone.

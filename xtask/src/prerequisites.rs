@@ -106,20 +106,22 @@ pub(crate) fn rust_components() -> Result<()> {
 /// other programs, and for those of the Python package.
 pub(crate) fn python() -> Result<PathBuf> {
     let packages = [
+        "dask[dataframe]",
         "duckdb",
+        "geopandas",
         "jsonschema",
         "lxml",
         "mypy",
         "pandas",
         "polars",
         "pyarrow",
+        "pyright",
         "pytest",
+        "ray",
     ];
-    environment(
-        "python",
-        &packages,
-        &format!("import {}", packages.join(", ")),
-    )
+    let modules = "import dask.dataframe, duckdb, geopandas, jsonschema, lxml, mypy, pandas, \
+                   polars, pyarrow, pyright, pytest, ray.data";
+    environment("python", &packages, modules)
 }
 
 /// A Python with other readers of the formats, whose versions `tests/conformance` states.
