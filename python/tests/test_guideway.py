@@ -8,7 +8,11 @@ from __future__ import annotations
 import io
 import json
 import math
+import os
 import pathlib
+import shutil
+import subprocess
+import sys
 
 import guideway
 import pytest
@@ -451,3 +455,24 @@ def test_csv_files_of_nodes_and_edges_become_a_layout(library: str) -> None:
 def read_csv(library: str, text: str) -> object:
     file = io.BytesIO(text.encode())
     return pytest.importorskip(library).read_csv(file)
+
+
+def other_pythons() -> list[str]:
+    """The versions from 3.9 on that are installed, by their names or by pyenv."""
+    names = [f"python3.{minor}" for minor in range(9, 20)]
+    found = [path for name in names if (path := shutil.which(name)) and "shims" not in path]
+    of_pyenv = pathlib.Path.home().glob(".pyenv/versions/3.*/bin/python3.*[0-9]")
+    return found + sorted(str(path) for path in of_pyenv if path.name in names)
+
+
+@pytest.mark.parametrize("python", other_pythons() or [sys.executable])
+def test_one_module_serves_all_versions(python: str) -> None:
+    package = pathlib.Path(guideway.__file__).parents[1]
+    call = "import guideway, sys; print(len(guideway.tiles(guideway.open(sys.argv[1]), 0, 0, 0)))"
+    ran = subprocess.run(
+        [python, "-c", call, SITE],
+        capture_output=True,
+        env={**os.environ, "PYTHONPATH": str(package)},
+        check=False,
+    )
+    assert ran.returncode == 0 and int(ran.stdout) > 1000, ran.stderr
