@@ -104,11 +104,16 @@ impl<W: Write> Page for SvgWriter<'_, W> {
         let at = middle + Point::new(0.0, 0.35 * height);
         // A stroke is as wide on both sides of the outlines of letters.
         let halo = Stroke::new(text.halo.to_u32(), 2.0 * text.halo_px());
+        // The last digits of an angle's sine differ between systems.
+        let rounded = |px: f64| (px / STEP_PX).round() / (1.0 / STEP_PX);
         self.text_line(&SvgText {
-            at: [at.x, at.y],
+            at: [rounded(at.x), rounded(at.y)],
             height,
-            width: text.width_px(),
-            turned: (text.angle_rad.to_degrees(), [middle.x, middle.y]),
+            width: rounded(text.width_px()),
+            turned: (
+                text.angle_rad.to_degrees(),
+                [rounded(middle.x), rounded(middle.y)],
+            ),
             rgba: text.color.to_u32(),
             halo: (text.halo.a > 0).then_some(halo),
             text: &text.text,
