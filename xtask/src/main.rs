@@ -181,7 +181,7 @@ fn python_package(python: &Path) -> Result<()> {
     ])?;
     // Engines with two workers; a file that is no layout is a finding.
     let site = "crates/guideway/examples/site.lif.json";
-    run(&["python/examples/ray_tiles.py", site, "0", "6", "2"])?;
+    run(&["python/examples/ray_tiles.py", site, "0", "4", "2"])?;
     run(&["python/examples/dask_check.py", "2", site, "README.md"])?;
     // The stubs: consistent, true to the module, and enough for the tests.
     run(&["-m", "mypy.stubtest", "guideway"])?;
