@@ -39,11 +39,30 @@ impl window::Window for Window {
             floor_plan: request.floor_plan.unwrap_or_default(),
             method: request.method,
         };
-        guideway_viewer::run(Arc::new(services), launch)
+        let opened = guideway_viewer::run(Arc::new(services), launch);
+        #[cfg(windows)]
+        if let Err(error) = &opened {
+            show_without_terminal(error);
+        }
+        opened
     }
 
     fn measure(&self, request: Request) -> Result<Measured, UserError> {
         measure::measure(request)
+    }
+}
+
+/// Shows an error in a dialog when nobody sees what is printed: programs that the desktop of Windows
+/// starts have no terminal.
+#[cfg(windows)]
+fn show_without_terminal(error: &UserError) {
+    use std::os::windows::io::AsRawHandle;
+    if std::io::stderr().as_raw_handle().is_null() {
+        rfd::MessageDialog::new()
+            .set_level(rfd::MessageLevel::Error)
+            .set_title("Guideway")
+            .set_description(error.to_string())
+            .show();
     }
 }
 
