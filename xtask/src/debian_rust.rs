@@ -1,5 +1,5 @@
-//! The compiler for other systems: Debian's `rustc-web`, unpacked under `target/` and not installed.
-//! It comes with the sources of the standard library, which cargo builds for each of them.
+//! The compiler for other systems: Debian's `rustc-web`, unpacked under `target/` and not
+//! installed. It comes with the sources of the standard library, which cargo builds for each.
 
 use std::path::PathBuf;
 

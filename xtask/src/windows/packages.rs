@@ -1,4 +1,5 @@
-//! Packs the programs for Windows as a zip and an installer, with checksums and a bill of materials.
+//! Packs the programs for Windows as a zip and an installer, with checksums and a bill of
+//! materials.
 
 use std::fs;
 use std::path::{Path, PathBuf};
