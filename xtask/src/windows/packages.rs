@@ -14,7 +14,7 @@ use super::build::{FOLDER, Profile};
 use crate::prerequisites::apt_install;
 use crate::step::command;
 
-/// What was packed.
+/// The results of packing.
 pub(super) struct Packages {
     /// The folder of the files, as they are installed.
     pub(super) stage: PathBuf,

@@ -87,7 +87,7 @@ impl Wine {
         format!("{drive}{}", rest.to_string_lossy().replace('/', "\\"))
     }
 
-    /// What a program prints, without line ends of Windows.
+    /// The output of a program, without line ends of Windows.
     pub(super) fn said(&self, program: &str, args: &[&str]) -> Result<String> {
         let output = self.command(program).args(args).output()?;
         let text = String::from_utf8_lossy(&output.stdout).replace('\r', "");
