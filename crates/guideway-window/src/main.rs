@@ -52,8 +52,8 @@ impl window::Window for Window {
     }
 }
 
-/// Shows an error in a dialog when nobody sees what is printed: programs that the desktop of Windows
-/// starts have no terminal.
+/// Shows an error in a dialog when nobody sees what is printed: programs that the desktop of
+/// Windows starts have no terminal.
 #[cfg(windows)]
 fn show_without_terminal(error: &UserError) {
     use std::os::windows::io::AsRawHandle;
