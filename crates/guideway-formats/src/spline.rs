@@ -266,7 +266,7 @@ impl Builder<'_> {
         None
     }
 
-    /// Reports knots that are legal but unusual: unclamped ends and breaks.
+    /// Reports what is legal but unusual: unclamped ends, ends without a weight, and breaks.
     fn check_shape(&mut self, curve: &Nurbs, at: PlaceFn<'_>) {
         let (degree, knots, points) = (curve.degree(), curve.knots(), curve.points().len());
         let clamped = knots[0] == knots[degree] && knots[points] == knots[points + degree];
@@ -278,6 +278,16 @@ impl Builder<'_> {
             };
             let remedy = "The curve is drawn as stated; clamp the knots if this is not intended";
             self.report(Code::UnclampedKnots, at, message, remedy);
+        }
+        let weights = curve.weights().unwrap_or_default();
+        if clamped && [weights.first(), weights.last()].contains(&Some(&0.0)) {
+            let message = || {
+                "the weight of an outer control point is 0: the curve begins or ends at the next \
+                 one with a weight"
+                    .to_owned()
+            };
+            let remedy = "The curve is drawn as stated; give the point a weight if it is its end";
+            self.report(Code::BadWeight, at, message, remedy);
         }
         let inner = knots.get(degree + 1..points).unwrap_or_default();
         let broken = inner.windows(degree + 1).find(|w| w[0] == w[degree]);

@@ -31,8 +31,9 @@ impl<'a> TrajectoryWriter<'a> {
         if !is_reverse && let Some(text) = self.unchanged_text(path, ends) {
             return Some(Tree::Raw(text.into()));
         }
-        let mut curve = match self.layout.paths.written_curve(path.row()) {
-            Some(written) => self.for_format(written.clone()),
+        let written = self.layout.paths.written_curve(path.row());
+        let mut curve = match written.and_then(|written| self.for_format(written.clone())) {
+            Some(written) => written,
             None => {
                 let curve = ClampedCurve::from_path(path)?;
                 let mut line = ends;
@@ -71,10 +72,11 @@ impl<'a> TrajectoryWriter<'a> {
     }
 
     /// Returns a curve that the format can hold, with knots from 0 to 1 and, where it requires
-    /// them, weights from 1 on. Scaled knots and weights define the same curve.
-    fn for_format(self, mut curve: WrittenCurve) -> WrittenCurve {
+    /// them, weights from 1 on. Scaled knots and weights define the same curve; `None` if no scale
+    /// does, because a weight is 0.
+    fn for_format(self, mut curve: WrittenCurve) -> Option<WrittenCurve> {
         if self.is_as_written {
-            return curve;
+            return Some(curve);
         }
         if curve.knots.is_empty() {
             curve.knots = knots::uniform_clamped(curve.degree as usize, curve.points_m.len());
@@ -88,18 +90,22 @@ impl<'a> TrajectoryWriter<'a> {
         }
         if let (true, Some(weights)) = (self.has_weights_from_1, &mut curve.weights) {
             let least = weights.iter().copied().fold(f64::INFINITY, f64::min);
-            if least < 1.0 && least > 0.0 {
-                let weights = weights.iter_mut();
-                weights.for_each(|weight| *weight = (*weight / least).max(1.0));
+            if least < 1.0 {
+                let raised = weights.iter_mut();
+                raised.for_each(|weight| *weight = (*weight / least).max(1.0));
+            }
+            // That of a weight of 0, or of one that others exceed by far.
+            if !weights.iter().all(|weight| weight.is_finite()) {
+                return None;
             }
         }
-        curve
+        Some(curve)
     }
 
-    /// Returns whether the format holds the curve of a path with scaled knots or weights.
-    pub(crate) fn is_scaled(self, path: usize) -> bool {
+    /// Returns whether the format holds the curve of a path with other knots or weights.
+    pub(crate) fn is_rewritten(self, path: usize) -> bool {
         let curve = self.layout.paths.written_curve(path);
-        curve.is_some_and(|curve| self.for_format(curve.clone()) != *curve)
+        curve.is_some_and(|curve| self.for_format(curve.clone()).as_ref() != Some(curve))
     }
 }
 

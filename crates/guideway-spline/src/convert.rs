@@ -4,7 +4,7 @@
 //! bounds their error.
 
 use crate::exact::push_exact;
-use crate::span::{Coefficient, Coefficients, bezier_of_span};
+use crate::span::{Coefficient, Coefficients, bezier_of_span, binomial, without_weightless_ends};
 use crate::{Nurbs, NurbsError, Point, Runs, knots};
 
 /// Most halvings of one span of a curve on the way to the tolerance.
@@ -44,7 +44,9 @@ impl Conversion {
 /// [`MAX_HALVINGS`]. It raises a tolerance below the rounding error of the span to that error.
 ///
 /// Spans of zero width yield nothing. At an inner knot of multiplicity above the degree the curve
-/// breaks, and the runs on the two sides do not meet.
+/// breaks, and the runs on the two sides do not meet. So it may at a knot where all weights that
+/// count are 0; at the ends of the domain such weights leave the limit, the next control point with
+/// a weight.
 pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Conversion {
     if curve.degree() <= 3 && !curve.is_rational() {
         let error_bound_m = push_exact(curve, out);
@@ -68,6 +70,8 @@ pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Convers
         // Coordinates relative to the span lose less to rounding in products.
         fit.origin = curve.points()[span];
         let bezier = bezier_of_span(curve, span, fit.origin);
+        let (degree, bezier) = without_weightless_ends(&bezier, curve.degree());
+        fit.degree = degree;
         fit.push(&bezier, MAX_HALVINGS);
     }
     fit.done
@@ -183,9 +187,4 @@ impl Fit<'_> {
         }
         [left, right]
     }
-}
-
-/// Binomial coefficient, n over k.
-fn binomial(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
 }

@@ -91,11 +91,13 @@ pub enum NurbsError {
         /// Value of the weight.
         actual: f64,
     },
-    /// All weights that count at a point of the curve are 0: it has no position there.
-    #[error("all weights that count at the parameter {at} are 0")]
+    /// All weights that count between two knots are 0: the curve has no position there.
+    #[error("all weights that count from parameter {start} to {end} are 0")]
     NoWeight {
-        /// Parameter of the point.
-        at: f64,
+        /// First parameter without a position.
+        start: f64,
+        /// Last parameter without a position.
+        end: f64,
     },
 }
 
@@ -128,7 +130,7 @@ impl Nurbs {
             weights,
         };
         match curve.weightless() {
-            Some(at) => Err(NurbsError::NoWeight { at }),
+            Some((start, end)) => Err(NurbsError::NoWeight { start, end }),
             None => Ok(curve),
         }
     }
@@ -176,7 +178,8 @@ impl Nurbs {
     /// The point at parameter `u`, clamped to the domain.
     ///
     /// At an inner knot of multiplicity above p the curve breaks; the result is the limit from the
-    /// right. Source: Piegl & Tiller, The NURBS Book, A4.1.
+    /// right. So it is at a knot where all weights that count are 0, but at the end of the domain
+    /// the limit from the left. Source: Piegl & Tiller, The NURBS Book, A4.1.
     pub fn point(&self, u: f64) -> Point<f64> {
         let (first, last) = self.domain();
         let u = u.clamp(first, last);
@@ -188,22 +191,35 @@ impl Nurbs {
             sum = sum + self.points[i] * share;
             total += share;
         }
-        sum * (1.0 / total)
+        if total > 0.0 {
+            return sum * (1.0 / total);
+        }
+        self.limit(span, u - self.knots[span] <= self.knots[span + 1] - u)
     }
 
-    /// A parameter at which the sum of all weights is 0. The sum of a span is positive if it is at
-    /// its ends, because the basis functions there are positive within.
-    fn weightless(&self) -> Option<f64> {
-        let weights = self.weights.as_ref().filter(|all| all.contains(&0.0))?;
-        let total = |span: usize, u: f64| -> f64 {
-            let values = nonzero_basis(self.degree, &self.knots, span, u);
-            let shares = (span - self.degree..=span).zip(values);
-            shares.map(|(i, value)| value * weights[i]).sum()
+    /// The limit at the start or the end of a span where no function with a weight counts.
+    ///
+    /// The functions that vanish at the start of a span do so the faster the later they are, and at
+    /// its end the faster the earlier they are. So one control point is left.
+    fn limit(&self, span: usize, is_start: bool) -> Point<f64> {
+        let weights = self.weights.as_deref().unwrap_or_default();
+        let mut weighted = (span - self.degree..=span).filter(|&i| weights[i] > 0.0);
+        let nearest = if is_start {
+            weighted.next()
+        } else {
+            weighted.next_back()
         };
-        let ends = |span: usize| [(span, self.knots[span]), (span, self.knots[span + 1])];
-        let mut ends = self.spans().flat_map(ends);
-        ends.find(|&(span, u)| total(span, u) <= 0.0)
-            .map(|(_, u)| u)
+        self.points[nearest.unwrap_or(span)]
+    }
+
+    /// Parameters of a span without any weight. All others have positions, because their basis
+    /// functions are positive within.
+    fn weightless(&self) -> Option<(f64, f64)> {
+        let weights = self.weights.as_ref().filter(|all| all.contains(&0.0))?;
+        let counts = |span: usize| &weights[span - self.degree..=span];
+        let mut spans = self.spans();
+        let span = spans.find(|&span| counts(span).iter().all(|&weight| weight == 0.0))?;
+        Some((self.knots[span], self.knots[span + 1]))
     }
 
     /// Indices k of the spans [u_k, u_(k + 1)] of the domain with a positive width.

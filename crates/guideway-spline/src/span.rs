@@ -61,3 +61,42 @@ pub(crate) fn bezier_of_span<const N: usize>(
     }
     bezier
 }
+
+/// Divides a Bezier curve of degree p by the powers of u and 1 - u that numerator and denominator
+/// have in common if its first or last weights are 0. Returns its degree and coefficients.
+///
+/// ```text
+/// c_i C(p, i) u^i (1 - u)^(p - i) = u^f (1 - u)^(p - l) c'_j C(d, j) u^j (1 - u)^(d - j)
+///     i = f + j, d = l - f, from the first to the last coefficient f, l with a weight
+/// ```
+///
+/// A curve of one coefficient is a point, which gets degree 1.
+pub(crate) fn without_weightless_ends(
+    curve: &Coefficients,
+    degree: usize,
+) -> (usize, Coefficients) {
+    let mut weighted = (0..=degree).filter(|&i| curve[i].weight > 0.0);
+    let first = weighted.next().unwrap_or(0);
+    let last = weighted.next_back().unwrap_or(first);
+    let reduced = last - first;
+    if reduced == degree {
+        return (degree, *curve);
+    }
+    let mut out = Coefficients::default();
+    for (j, c) in out.iter_mut().enumerate().take(reduced + 1) {
+        let factor = binomial(degree, first + j) / binomial(reduced, j);
+        *c = Coefficient {
+            point: curve[first + j].point * factor,
+            weight: curve[first + j].weight * factor,
+        };
+    }
+    if reduced == 0 {
+        out[1] = out[0];
+    }
+    (reduced.max(1), out)
+}
+
+/// Binomial coefficient, n over k.
+pub(crate) fn binomial(n: usize, k: usize) -> f64 {
+    (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
+}

@@ -269,8 +269,8 @@ fn errors_state_expected_and_actual_values() {
         "weight 1 is -1, expected a finite number from 0 on"
     );
     assert_eq!(
-        new(3, &k, Some(&[1.0, 1.0, 1.0, 0.0])),
-        "all weights that count at the parameter 1 are 0"
+        new(3, &k, Some(&[0.0; 4])),
+        "all weights that count from parameter 0 to 1 are 0"
     );
     let mut wrong = k;
     wrong[7] = 0.5;
@@ -289,6 +289,91 @@ fn errors_state_expected_and_actual_values() {
         infinite.unwrap_err().to_string(),
         "control point 0 is not finite"
     );
+}
+
+/// Ends and middle of the runs of a curve, and those of its evaluation, which are the same.
+fn ends_and_middle(degree: usize, knots: Vec<f64>, points: &[P], weights: &[f64]) -> [P; 3] {
+    let curve = Nurbs::new(degree, knots, points.to_vec(), Some(weights.to_vec())).unwrap();
+    let mut runs = Runs::default();
+    let done = nurbs_to_runs(&curve, 1e-6, &mut runs);
+    assert!(done.error_bound_m <= 1e-6, "{done:?}");
+    assert!(distance(&curve, &runs) <= 1e-5);
+    let (first, last) = curve.domain();
+    let at = [first, (first + last) / 2.0, last].map(|u| curve.point(u));
+    let ends = [runs.start().unwrap(), runs.end().unwrap()];
+    assert!(ends[0].distance(at[0]) < 1e-9 && ends[1].distance(at[2]) < 1e-9);
+    at
+}
+
+#[test]
+fn end_weights_of_zero_leave_the_limit() {
+    let p = zigzag(7);
+    let near = |actual: [P; 3], expected: [P; 3]| {
+        let pairs = actual.iter().zip(&expected);
+        assert!(
+            pairs.into_iter().all(|(a, b)| a.distance(*b) < 1e-9),
+            "{actual:?}, not {expected:?}"
+        );
+    };
+    // One Bezier curve: u (1 - u) cancels, and a line between the inner points is left.
+    let bezier = knots::uniform_clamped(3, 4);
+    let line = ends_and_middle(3, bezier.clone(), &p[..4], &[0.0, 1.0, 1.0, 0.0]);
+    near(line, [p[1], p[1].lerp(p[2], 0.5), p[2]]);
+    // Weights 3 and 1: the middle is nearer to the first.
+    let line = ends_and_middle(3, bezier.clone(), &p[..4], &[0.0, 3.0, 1.0, 0.0]);
+    near(line, [p[1], p[1].lerp(p[2], 0.25), p[2]]);
+    // u^2 cancels, and the last two points are left; then one point.
+    let line = ends_and_middle(3, bezier.clone(), &p[..4], &[0.0, 0.0, 1.0, 3.0]);
+    near(line, [p[2], p[2].lerp(p[3], 0.5), p[3]]);
+    near(
+        ends_and_middle(3, bezier, &p[..4], &[0.0, 1.0, 0.0, 0.0]),
+        [p[1]; 3],
+    );
+    // A parabola: u cancels, and 2 (1 - u) P1 + 2 u P2 is left.
+    let parabola = knots::uniform_clamped(2, 3);
+    let line = ends_and_middle(2, parabola, &p[..3], &[0.0, 1.0, 2.0]);
+    near(line, [p[1], p[1].lerp(p[2], 0.5), p[2]]);
+    // Several spans, and knots that are not clamped.
+    let weights = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0];
+    let [start, _, end] = ends_and_middle(3, knots::uniform_open(3, 7), &p, &weights);
+    assert!(start.distance(p[3]) < 1e-9 && end.distance((p[4] * 1.0 + p[5] * 4.0) * 0.2) < 1e-9);
+}
+
+#[test]
+fn inner_weights_of_zero_break_the_curve() {
+    let p = zigzag(8);
+    let weights = [1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+    let knots = knots::uniform_clamped(3, 8);
+    let (middle, points) = (knots[5], p.clone());
+    let curve = Nurbs::new(3, knots, points, Some(weights.to_vec())).unwrap();
+    let mut runs = Runs::default();
+    nurbs_to_runs(&curve, 1e-6, &mut runs);
+    // At the third knot only the three points without a weight count.
+    assert!(curve.point(middle).distance(p[5]) < 1e-9);
+    assert!(curve.point(middle.next_down()).distance(p[1]) < 1e-9);
+    assert!(distance(&curve, &runs) < 1e-5);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn any_weights_of_zero_stay_within_the_bound(
+        curve in nurbs(1..=5, Just(true)),
+        is_zero in prop::collection::vec(any::<bool>(), 20),
+    ) {
+        let weights = curve.weights().unwrap_or_default().iter().zip(&is_zero);
+        let weights: Vec<f64> = weights.map(|(w, zero)| if *zero { 0.0 } else { *w }).collect();
+        let (knots, points) = (curve.knots().to_vec(), curve.points().to_vec());
+        let Ok(curve) = Nurbs::new(curve.degree(), knots, points, Some(weights)) else {
+            return Ok(());
+        };
+        let mut runs = Runs::default();
+        let done = nurbs_to_runs(&curve, 1e-2, &mut runs);
+        prop_assert!(done.error_bound_m.is_finite(), "{:?}", done);
+        let actual = distance(&curve, &runs);
+        prop_assert!(actual <= done.error_bound_m, "{} with {:?}", actual, done);
+    }
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub(super) fn losses(objects: &Objects<'_, '_>) -> Losses {
     add_network(objects, &rows, &mut losses);
     let scaled = rows
         .iter()
-        .filter(|&&row| objects.trajectories.is_scaled(row));
+        .filter(|&&row| objects.trajectories.is_rewritten(row));
     let detail = "curves: written with knots from 0 to 1";
     losses.add("curves", scaled.count(), detail);
     add_levels(objects, &rows, &mut losses);

@@ -110,8 +110,25 @@ fn points_of_weight_zero_pull_nothing() {
         ends(&layout, "E"),
         (Point::new(0.0, 0.0), Point::new(10.0, 0.0))
     );
-    // At a point where all weights are zero there is no curve.
-    for weights in [[0.0, 1.0, 1.0], [0.0; 3], [1.0, 1.0, 0.0], [1.0, -1.0, 1.0]] {
+    // Without an end, the curve is a line from the next point on.
+    for (weights, from, to) in [
+        ([0.0, 1.0, 1.0], (5.0, 5.0), (10.0, 0.0)),
+        ([1.0, 2.0, 0.0], (0.0, 0.0), (5.0, 5.0)),
+    ] {
+        let layout = trajectory(&points(weights));
+        let expected = [from, to].map(|(x, y)| Point::new(x, y));
+        let (from, to) = ends(&layout, "E");
+        let apart = from.distance(expected[0]).max(to.distance(expected[1]));
+        assert!(apart < 1e-12, "{weights:?}: {from:?} to {to:?}");
+        let [start, end] = expected;
+        let aside = |p: Point<f64>| (p - start).cross(end - start).abs();
+        let mut drawn = layout.paths.get(0).runs().flat_map(|run| run.iter());
+        assert!(drawn.all(|p| aside(p) < 1e-9), "{weights:?}");
+        assert_eq!(codes(&layout), [Code::BadWeight], "{weights:?}");
+        assert!(layout.paths.written_curve(0).is_some(), "{weights:?}");
+    }
+    // Where all weights are zero there is no curve.
+    for weights in [[0.0; 3], [1.0, -1.0, 1.0]] {
         let layout = trajectory(&points(weights));
         assert_eq!(codes(&layout), [Code::BadWeight], "{weights:?}");
         assert!(layout.paths.value(0, "trajectory").is_some(), "{weights:?}");

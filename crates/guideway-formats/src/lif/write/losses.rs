@@ -193,9 +193,11 @@ pub(in crate::lif) fn add_required(elements: &Elements<'_>, losses: &mut Losses)
             detail,
         );
     }
-    let scaled = (0..layout.paths.len()).filter(|&path| elements.trajectories.is_scaled(path));
-    let detail = "curves: written with knots from 0 to 1, and with weights from 1 on";
-    losses.add("curves", scaled.count(), detail);
+    let is_rewritten = |path: &usize| elements.trajectories.is_rewritten(*path);
+    let rewritten = (0..layout.paths.len()).filter(is_rewritten);
+    let detail = "curves: written with knots from 0 to 1 and with weights from 1 on, those with \
+                  weights of 0 as cubics without weights";
+    losses.add("curves", rewritten.count(), detail);
     let [grown, implied] = count_changed_nodes(elements);
     let detail = "nodes: written with entries for the types of their paths";
     losses.add("vehicle types", grown, detail);

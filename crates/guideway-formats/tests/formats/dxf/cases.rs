@@ -6,7 +6,7 @@ use guideway_spline::Point;
 
 use super::{LINE, assert_near, drawing, text, vertices};
 use crate::common::{codes, ends, read, read_real, shared};
-use guideway_formats::{ReadOptions, read_bytes};
+use guideway_formats::{ReadOptions, lif, read_bytes};
 
 /// Reads a drawing in meters with further header variables and sections.
 fn with_header(header: &str, entities: &str, sections: &str) -> Layout {
@@ -260,6 +260,37 @@ fn weights_of_zero_are_evaluated() {
     );
     assert_eq!(codes(&straight), []);
     assert_eq!(codes(&spline(-0.5)), [Code::BadWeight]);
+}
+
+#[test]
+fn end_weights_of_zero_are_evaluated() {
+    let knots = "40 0\n40 0\n40 0\n40 0\n40 1\n40 1\n40 1\n40 1";
+    let points = "10 0\n20 0\n10 1\n20 5\n10 9\n20 5\n10 10\n20 0";
+    let weights = "41 0\n41 1\n41 1\n41 0";
+    let entity = format!("0 SPLINE\n5 A\n70 12\n71 3\n{knots}\n{weights}\n{points}");
+    let layout = drawing("", "", &entity);
+    // u (1 - u) cancels: a straight line between the inner points.
+    assert_eq!(
+        ends(&layout, "A"),
+        (Point::new(1.0, 5.0), Point::new(9.0, 5.0))
+    );
+    let all = vertices(&layout, "A");
+    assert!(all.iter().all(|point| (point.y - 5.0).abs() < 1e-12));
+    assert_eq!(codes(&layout), [Code::BadWeight]);
+    // LIF 1.0 has weights from 1 on: it gets the line.
+    let mut out = Vec::new();
+    let options = lif::WriteOptions {
+        version: lif::Version::V1,
+        exported: std::time::SystemTime::UNIX_EPOCH,
+    };
+    let losses = lif::write_layout(&layout, &mut out, &options).unwrap();
+    let text = String::from_utf8(out).unwrap();
+    assert!(!text.contains("weight"), "{text}");
+    assert!(losses.iter().any(|loss| loss.what == "curves"));
+    assert_eq!(
+        ends(&read(&text), "A"),
+        (Point::new(1.0, 5.0), Point::new(9.0, 5.0))
+    );
 }
 
 #[test]
