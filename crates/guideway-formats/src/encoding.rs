@@ -4,6 +4,7 @@
 //! |---|---|
 //! | a byte order mark | the one that it marks |
 //! | every other one of the first bytes is zero | UTF-16 |
+//! | three of each four first bytes are zero | UTF-32 |
 //! | `<?xml ... encoding="..."?>` | the declared one |
 //! | any others | unchanged: UTF-8, or a format that is not text |
 
@@ -13,6 +14,7 @@ use encoding_rs::{DecoderResult, Encoding, UTF_8, UTF_16BE, UTF_16LE};
 use guideway_layout::Place;
 
 use crate::Problem;
+use crate::dos_page::DosPage;
 use crate::text::printable;
 
 /// Longest XML declaration that is searched for an encoding, in bytes.
@@ -24,17 +26,29 @@ const MAX_DECLARATION: usize = 1024;
 /// When the declared encoding is not known, or when the bytes are not in it.
 pub(crate) fn to_utf8(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Problem> {
     let (encoding, start) = match bytes {
-        [0xFF, 0xFE, 0, 0, ..] | [0, 0, 0xFE, 0xFF, ..] => return Err(unknown("UTF-32")),
+        [0xFF, 0xFE, 0, 0, rest @ ..] => return owned(utf_32(rest, 4, u32::from_le_bytes)),
+        [0, 0, 0xFE, 0xFF, rest @ ..] => return owned(utf_32(rest, 4, u32::from_be_bytes)),
+        [a, 0, 0, 0, b, 0, 0, 0, ..] if is_text(*a) && is_text(*b) => {
+            return owned(utf_32(bytes, 0, u32::from_le_bytes));
+        }
+        [0, 0, 0, a, 0, 0, 0, b, ..] if is_text(*a) && is_text(*b) => {
+            return owned(utf_32(bytes, 0, u32::from_be_bytes));
+        }
         [0xFF, 0xFE, ..] => (UTF_16LE, 2),
         [0xFE, 0xFF, ..] => (UTF_16BE, 2),
         [a, 0, b, 0, ..] if is_text(*a) && is_text(*b) => (UTF_16LE, 0),
         [0, a, 0, b, ..] if is_text(*a) && is_text(*b) => (UTF_16BE, 0),
         _ => match declared(bytes) {
-            Some(label) => {
-                let found = Encoding::for_label_no_replacement(label);
-                let label = String::from_utf8_lossy(label);
-                (found.ok_or_else(|| unknown(&label))?, 0)
-            }
+            // The bytes of ASCII are those of UTF-8; a label that the text outgrew.
+            Some(label) if is_ascii_label(label) && str::from_utf8(bytes).is_ok() => (UTF_8, 0),
+            Some(label) => match Encoding::for_label_no_replacement(label) {
+                Some(encoding) => (encoding, 0),
+                None => {
+                    let page = DosPage::of_label(label);
+                    let page = page.ok_or_else(|| unknown(&String::from_utf8_lossy(label)))?;
+                    return owned(Ok(page.decode(bytes)));
+                }
+            },
             None => (UTF_8, 0),
         },
     };
@@ -45,7 +59,39 @@ pub(crate) fn to_utf8(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Problem> {
     if encoding == UTF_8 || (start == 0 && !is_wide && encoding.output_encoding() == UTF_8) {
         return Ok(Cow::Borrowed(bytes));
     }
-    decode(encoding, &bytes[start..], start).map(|text| Cow::Owned(text.into_bytes()))
+    owned(decode(encoding, &bytes[start..], start))
+}
+
+fn owned(text: Result<String, Problem>) -> Result<Cow<'static, [u8]>, Problem> {
+    text.map(|text| Cow::Owned(text.into_bytes()))
+}
+
+fn is_ascii_label(label: &[u8]) -> bool {
+    let label = label.to_ascii_lowercase();
+    label.ends_with(b"ascii") || label.starts_with(b"ansi_x3.4")
+}
+
+/// Decodes numbers of characters; `start` is the place of the bytes in the file.
+fn utf_32(bytes: &[u8], start: usize, number: fn([u8; 4]) -> u32) -> Result<String, Problem> {
+    let mut text = String::new();
+    text.try_reserve(bytes.len())
+        .map_err(|_| Problem::Io(std::io::ErrorKind::OutOfMemory.into()))?;
+    let (numbers, rest) = bytes.as_chunks::<4>();
+    for (index, &bytes) in numbers.iter().enumerate() {
+        let letter = char::from_u32(number(bytes));
+        text.push(letter.ok_or_else(|| not_utf_32(start + 4 * index))?);
+    }
+    match rest {
+        [] => Ok(text),
+        _ => Err(not_utf_32(start + 4 * numbers.len())),
+    }
+}
+
+fn not_utf_32(at: usize) -> Problem {
+    Problem::WrongEncoding {
+        encoding: "UTF-32",
+        at: at as u64,
+    }
 }
 
 fn is_text(byte: u8) -> bool {
@@ -114,6 +160,10 @@ mod tests {
             ("gb2312", b"\xC2\xB7", "路"),
             ("Shift_JIS", b"\x93\xB9", "道"),
             ("EUC-KR", b"\xB1\xE6", "길"),
+            ("IBM850", b"\x82\x81", "éü"),
+            ("cp-437", b"\xE1", "ß"),
+            ("US-ASCII", "é".as_bytes(), "é"),
+            ("us-ascii", b"\xE9", "é"),
             ("utf-8", "é".as_bytes(), "é"),
             // The bytes cannot be UTF-16.
             ("UTF-16", "é".as_bytes(), "é"),
@@ -137,6 +187,16 @@ mod tests {
     }
 
     #[test]
+    fn decodes_utf_32_with_and_without_a_mark() {
+        for all in ["{\"é\": \"路\"}", "\u{FEFF}{\"é\": \"路\"}"] {
+            for bytes in [u32::to_le_bytes, u32::to_be_bytes] {
+                let file: Vec<u8> = all.chars().flat_map(|c| bytes(c.into())).collect();
+                assert_eq!(text(&file), all.trim_start_matches('\u{FEFF}'));
+            }
+        }
+    }
+
+    #[test]
     fn leaves_other_bytes_alone() {
         for bytes in [
             &b"\xEF\xBB\xBF<?xml encoding='latin1'?>"[..],
@@ -155,13 +215,22 @@ mod tests {
     fn says_what_is_wrong() {
         let error = to_utf8(b"<?xml encoding='gbk'?>\xB5'").unwrap_err();
         assert!(error.to_string().contains("not GBK at byte"), "{error}");
-        let error = to_utf8(b"<?xml encoding='cp850'?>").unwrap_err();
-        assert!(error.to_string().contains("`cp850`"), "{error}");
+        let error = to_utf8(b"<?xml encoding='cp037'?>").unwrap_err();
+        assert!(error.to_string().contains("`cp037`"), "{error}");
         let error = to_utf8(b"\xFF\xFE\x3C\x00\x00\xD8").unwrap_err();
         assert!(
             error.to_string().contains("not UTF-16LE at byte 6"),
             "{error}"
         );
-        assert!(to_utf8(b"\xFF\xFE\0\0<\0\0\0").is_err());
+        for (bytes, at) in [
+            (&b"{\0\0\0\"\0\0\0\0\xD8\0\0"[..], 8),
+            (b"\xFF\xFE\0\0<\0", 4),
+        ] {
+            let error = to_utf8(bytes).unwrap_err().to_string();
+            assert!(
+                error.contains(&format!("not UTF-32 at byte {at}")),
+                "{error}"
+            );
+        }
     }
 }

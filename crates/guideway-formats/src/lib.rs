@@ -25,6 +25,7 @@
 pub mod arrow;
 mod builder;
 mod clamped;
+mod dos_page;
 mod driven;
 #[cfg(feature = "dxf")]
 pub mod dxf;

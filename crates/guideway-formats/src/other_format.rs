@@ -15,6 +15,11 @@ const COMMENTS: &str = "If it is JSON, remove them: JSON has no comments";
 const TABLE: &str = "Convert it to Arrow, which is Feather of version 2: \
                      pyarrow.feather.write_feather";
 
+const DRAWING: &str = "Export the drawing as DXF or SVG from the program that wrote it";
+const PLAN: &str = "Export a plan of it as DXF or SVG from the program that wrote it";
+const OSM: &str = "Convert it: `osmium cat FILE -o FILE.osm`; lanelets are read";
+const RECORDING: &str = "Export the map or the route from it; a recording is no layout";
+
 /// First bytes, name and remedy of formats.
 const FIRST_BYTES: &[(&[u8], &str, &str)] = &[
     (b"PK\x03\x04", "a ZIP archive", UNPACK),
@@ -26,6 +31,10 @@ const FIRST_BYTES: &[(&[u8], &str, &str)] = &[
     (b"\x89PNG", "a PNG image", IMAGE),
     (b"\xFF\xD8\xFF", "a JPEG image", IMAGE),
     (b"GIF8", "a GIF image", IMAGE),
+    (b"P5\n", "a PGM image", IMAGE),
+    (b"P5 ", "a PGM image", IMAGE),
+    (b"P2\n", "a PGM image", IMAGE),
+    (b"P6\n", "a PPM image", IMAGE),
     (b"II*\0", "a TIFF image", IMAGE),
     (b"MM\0*", "a TIFF image", IMAGE),
     (
@@ -39,6 +48,21 @@ const FIRST_BYTES: &[(&[u8], &str, &str)] = &[
         CONVERT,
     ),
     (b"\0\0\x27\x0A", "a shapefile", CONVERT),
+    (b"fgb\x03", "FlatGeobuf", CONVERT),
+    (b"\x08\x09\xFE\x02", "a DGN drawing", DRAWING),
+    (b"\xC8\x09\xFE\x02", "a DGN drawing", DRAWING),
+    (
+        b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1",
+        "a document of DGN 8, Revit, Visio or an old office program",
+        DRAWING,
+    ),
+    (b"%!PS", "a PostScript drawing", DRAWING),
+    (b"ISO-10303-21;", "a STEP or IFC model", PLAN),
+    (b"glTF", "a glTF model", PLAN),
+    (b"RIFF", "a WebP image or another RIFF file", IMAGE),
+    (b"#ROSBAG", "a recording of ROS", RECORDING),
+    (b"\x89MCAP", "a recording of ROS", RECORDING),
+    (b"# .PCD", "a point cloud", PLAN),
     (b"\x1F\x8B", "a file packed twice with gzip", UNPACK),
     (b"//", "a text with comments", COMMENTS),
     (b"/*", "a text with comments", COMMENTS),
@@ -67,6 +91,9 @@ const WKT: &[&[u8]] = &[
 const ROOTS: &[(&[u8], &str, &str)] = &[
     (b"kml", "KML", CONVERT),
     (b"gpx", "GPX", CONVERT),
+    (b"LandXML", "LandXML", DRAWING),
+    (b"IndoorFeatures", "IndoorGML", CONVERT),
+    (b"CityModel", "CityGML", CONVERT),
     (b"FeatureCollection", "GML", CONVERT),
     (
         b"net",
@@ -116,10 +143,20 @@ pub(crate) fn other_format(bytes: &[u8]) -> Option<Problem> {
             let remedy = "Write each layout to a file of its own; commands take several files";
             return Some(problem("an array of layouts", remedy));
         }
+        0 if bytes.get(6..15) == Some(b"OSMHeader") => {
+            return Some(problem("OpenStreetMap data in the PBF format", OSM));
+        }
         _ if is_wkt(text) => return Some(problem("well-known text (WKT)", CONVERT)),
-        _ => FIRST_BYTES
-            .iter()
-            .find(|(first, ..)| bytes.starts_with(first)),
+        _ => {
+            let mut all = FIRST_BYTES.iter();
+            let found = all.find(|(first, ..)| bytes.starts_with(first));
+            if found.is_none() && is_table(text) {
+                let remedy = "Write it as GeoJSON, such as by `ogr2ogr`, or as Arrow with a column \
+                              `control_points`";
+                return Some(problem("a table of separated values (CSV)", remedy));
+            }
+            found
+        }
     };
     known.map(|(_, what, remedy)| problem(what, remedy))
 }
@@ -132,6 +169,22 @@ fn is_wkt(text: &[u8]) -> bool {
         let next = rest.iter().find(|byte| !is_mark(byte));
         head.eq_ignore_ascii_case(word) && matches!(next, Some(b'(' | b'0'..=b'9'))
     })
+}
+
+/// Returns whether the first lines of a text have the same separators, as those of a table do.
+fn is_table(text: &[u8]) -> bool {
+    let Ok(text) = str::from_utf8(&text[..text.len().min(4096)]) else {
+        return false;
+    };
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let (Some(head), Some(first)) = (lines.next(), lines.next()) else {
+        return false;
+    };
+    // Names stand in the head, and no mark that another syntax has.
+    let is_head = head.chars().all(|c| !"{}[]<>=\\".contains(c)) && !head.contains(": ");
+    let count = |line: &str, separator: char| line.matches(separator).count();
+    let mut separators = [',', ';', '\t'].into_iter();
+    is_head && separators.any(|s| count(head, s) > 0 && count(head, s) == count(first, s))
 }
 
 /// Returns whether the first object of an array has a key of LIF.

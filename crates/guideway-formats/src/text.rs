@@ -122,3 +122,22 @@ impl<'a> ElementCounter<'a> {
         self.depth = self.depth.saturating_sub(1);
     }
 }
+
+/// Decodes `%` and the two digits of a byte, as references have them; `None` if the bytes are not
+/// UTF-8 or a `%` has no digits.
+pub(crate) fn percent_decoded(text: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let Some((&first, after)) = rest.split_first() {
+        rest = after;
+        if first != b'%' {
+            bytes.push(first);
+            continue;
+        }
+        let (digits, after) = rest.split_at_checked(2)?;
+        let digits = str::from_utf8(digits).ok()?;
+        bytes.push(u8::from_str_radix(digits, 16).ok()?);
+        rest = after;
+    }
+    String::from_utf8(bytes).ok()
+}

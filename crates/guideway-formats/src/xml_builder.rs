@@ -55,6 +55,32 @@ impl<'a, 'd, 't> XmlBuilder<'a, 'd, 't> {
         self.builder.refuse_at(id, code, detail, &at, remedy)
     }
 
+    /// Records the parts of the document that are in other files, which are not read: `include` of
+    /// XInclude, and that of OpenDRIVE.
+    ///
+    /// # Errors
+    /// When the layout would exceed a limit, or the caller cancels the read.
+    pub(crate) fn refuse_includes(&mut self) -> Result<(), ReadError> {
+        const XINCLUDE: &str = "http://www.w3.org/2001/XInclude";
+        let xml = self.xml;
+        let nodes = xml.root().descendants();
+        for node in nodes.filter(|node| node.tag_name().name() == "include") {
+            let key = match node.tag_name().namespace() {
+                Some(XINCLUDE) => "href",
+                _ => "file",
+            };
+            let Some(file) = node.attribute(key) else {
+                continue;
+            };
+            let id = format!("include {file}");
+            self.builder.check_text(&id)?;
+            let detail = format!("the included file `{file}` is not in this one");
+            let remedy = "It is left out; put its content in the place of the element";
+            self.refuse(&id, Code::UnknownValue, node, &detail, remedy)?;
+        }
+        Ok(())
+    }
+
     /// Appends the path of an element, with its line, and returns its row.
     ///
     /// # Errors

@@ -244,6 +244,25 @@ mod tests {
     }
 
     #[test]
+    fn whole_numbers_beyond_double_precision_keep_their_digits() {
+        let serial = Value::Int((1 << 53) + 1);
+        for (first, second) in [(serial, Value::Float(0.5)), (Value::Float(0.5), serial)] {
+            let mut attributes = Attributes::default();
+            attributes.set(0, "serial", first);
+            attributes.set(1, "serial", second);
+            let values = &attributes.get("serial").unwrap().values;
+            let mut texts: Vec<_> = values.iter().flatten().map(|v| v.to_string()).collect();
+            texts.sort();
+            assert_eq!(texts, ["0.5", "9007199254740993"]);
+        }
+        let mut attributes = Attributes::default();
+        attributes.set(0, "serial", Value::Int(1 << 53));
+        attributes.set(1, "serial", Value::Float(0.5));
+        let values = &attributes.get("serial").unwrap().values;
+        assert_eq!(values.get(0), Some(Value::Float(9_007_199_254_740_992.0)));
+    }
+
+    #[test]
     fn column_widens_to_the_type_of_its_values() {
         let mut attributes = Attributes::default();
         attributes.set(1, "speed", Value::Int(2));

@@ -73,14 +73,15 @@ impl Values {
 
     /// Returns `true` if the column can store a value without a change of its type.
     pub fn holds(&self, value: Value<'_>) -> bool {
-        matches!(
-            (self, value),
+        match (self, value) {
             (Self::Bool(_), Value::Bool(_))
-                | (Self::Int(_), Value::Int(_))
-                | (Self::Float(_), Value::Float(_) | Value::Int(_))
-                | (Self::Json(_), Value::Json(_))
-                | (Self::Text(_), _)
-        )
+            | (Self::Int(_), Value::Int(_))
+            | (Self::Float(_), Value::Float(_))
+            | (Self::Json(_), Value::Json(_))
+            | (Self::Text(_), _) => true,
+            (Self::Float(_), Value::Int(whole)) => is_exact(whole),
+            _ => false,
+        }
     }
 
     pub(crate) fn widen_for(&mut self, value: Value<'_>) {
@@ -88,7 +89,7 @@ impl Values {
             return;
         }
         *self = match (&*self, value) {
-            (Self::Int(v), Value::Float(_)) => {
+            (Self::Int(v), Value::Float(_)) if v.iter().flatten().all(is_exact) => {
                 Self::Float(v.iter().map(|v| v.map(|v| v as f64)).collect())
             }
             (narrow, _) => {
@@ -155,6 +156,12 @@ impl Values {
             Self::Text(v) | Self::Json(v) => v.heap_bytes(),
         }
     }
+}
+
+/// Returns `true` if double precision holds a whole number, and each one nearer to 0, to its last
+/// digit. A serial number beyond would become another one.
+fn is_exact(whole: i64) -> bool {
+    whole.unsigned_abs() <= 1 << f64::MANTISSA_DIGITS
 }
 
 impl<'a> FromIterator<Option<Value<'a>>> for Values {

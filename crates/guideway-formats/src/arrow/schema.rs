@@ -171,6 +171,15 @@ impl ColumnRoles {
             }
         }
         columns.control_points = control_points.ok_or_else(|| {
+            if let Some(geometry) = schema.fields().iter().find(|field| is_geoarrow(field)) {
+                return Problem::Unsupported {
+                    place: Place::element(format!("column {}", geometry.name())),
+                    what: "a table of GeoArrow".to_owned(),
+                    remedy: "Convert it: geopandas.GeoDataFrame.from_arrow(TABLE).to_file(\
+                             \"FILE.geojson\")"
+                        .into(),
+                };
+            }
             let names: Vec<&str> = schema.fields().iter().map(|f| f.name().as_str()).collect();
             let found = format!("only the columns {}", names.join(", "));
             wrong_structure("schema", "a column control_points", &found)
@@ -182,6 +191,12 @@ impl ColumnRoles {
     pub(super) fn get(&self, role: Role) -> Option<usize> {
         self.roles[role as usize]
     }
+}
+
+/// Returns whether a column has geometries as the extension types of GeoArrow.
+fn is_geoarrow(field: &Field) -> bool {
+    let name = field.metadata().get("ARROW:extension:name");
+    name.is_some_and(|name| name.starts_with("geoarrow."))
 }
 
 impl Rule {

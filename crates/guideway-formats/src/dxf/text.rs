@@ -7,6 +7,8 @@ use encoding_rs::{
     WINDOWS_1257, WINDOWS_1258,
 };
 
+use crate::dos_page::DosPage;
+
 /// Decoder of the text values of a file.
 #[derive(Debug)]
 pub(super) struct TextDecoder {
@@ -19,26 +21,11 @@ pub(super) struct TextDecoder {
 #[derive(Clone, Copy, Debug)]
 enum CodePage {
     Known(&'static Encoding),
-    /// The characters of the bytes from 128 on.
-    Table(&'static str),
+    Dos(DosPage),
 }
 
 /// First release whose texts are UTF-8.
 const UTF8_SINCE: &str = "AC1021";
-
-/// Code page 437 of DOS.
-const DOS_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
-    └┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
-/// Code page 850 of DOS.
-const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐\
-    └┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{ad}±‗¾¶§÷¸°¨·¹³²■\u{a0}";
-/// Code page 852 of DOS.
-const DOS_852: &str = "ÇüéâäůćçłëŐőîŹÄĆÉĹĺôöĽľŚśÖÜŤťŁ×čáíóúĄąŽžĘę¬źČş«»░▒▓│┤ÁÂĚŞ╣║╗╝Żż┐\
-    └┴┬├─┼Ăă╚╔╩╦╠═╬¤đĐĎËďŇÍÎě┘┌█▄ŢŮ▀ÓßÔŃńňŠšŔÚŕŰýÝţ´\u{ad}˝˛ˇ˘§÷¸°¨˙űŘř■\u{a0}";
-/// Code page 857 of DOS.
-const DOS_857: &str = "ÇüéâäàåçêëèïîıÄÅÉæÆôöòûùİÖÜø£ØŞşáíóúñÑĞğ¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐\
-    └┴┬├─┼ãÃ╚╔╩╦╠═╬¤ºªÊËÈ\u{fffd}ÍÎÏ\
-    ┘┌█▄¦Ì▀ÓßÔÒõÕµ\u{fffd}×ÚÛÙìÿ¯´\u{ad}±\u{fffd}¾¶§÷¸°¨·¹³²■\u{a0}";
 
 impl Default for TextDecoder {
     fn default() -> Self {
@@ -89,13 +76,7 @@ impl CodePage {
     fn decode(self, bytes: &[u8]) -> String {
         match self {
             Self::Known(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned(),
-            Self::Table(high) => {
-                let letter = |&byte: &u8| match byte.checked_sub(128) {
-                    None => char::from(byte),
-                    Some(high_byte) => high.chars().nth(high_byte.into()).unwrap_or('\u{fffd}'),
-                };
-                bytes.iter().map(letter).collect()
-            }
+            Self::Dos(page) => page.decode(bytes),
         }
     }
 }
@@ -133,11 +114,7 @@ fn code_page(name: &[u8]) -> Option<CodePage> {
         (_, "8859-6") => ISO_8859_6,
         (_, "8859-7") => ISO_8859_7,
         (_, "8859-8") => ISO_8859_8,
-        (_, "437") => return Some(CodePage::Table(DOS_437)),
-        (_, "850") => return Some(CodePage::Table(DOS_850)),
-        (_, "852") => return Some(CodePage::Table(DOS_852)),
-        (_, "857") => return Some(CodePage::Table(DOS_857)),
-        _ => return None,
+        (_, number) => return DosPage::of_number(number).map(CodePage::Dos),
     }))
 }
 

@@ -17,7 +17,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     let documents = json::documents(text);
     let mut roots = Vec::with_capacity(documents.len());
     for document in &documents {
-        roots.push(root(&source, document)?);
+        roots.push(root(&source, text, document)?);
     }
     let starts: Vec<usize> = documents
         .iter()
@@ -66,8 +66,8 @@ fn joined<'t>(roots: Vec<Root<'t>>) -> Root<'t> {
     first
 }
 
-/// Parses a root object.
-fn root<'t>(source: &Source<'_>, text: &'t str) -> Result<Root<'t>, ReadError> {
+/// Parses a root object, which is a part of the whole text.
+fn root<'t>(source: &Source<'_>, whole: &str, text: &'t str) -> Result<Root<'t>, ReadError> {
     let fail = |element: &str, expected: &str, found: String| {
         source.fail(Problem::Structure {
             place: Place::element(element),
@@ -75,7 +75,7 @@ fn root<'t>(source: &Source<'_>, text: &'t str) -> Result<Root<'t>, ReadError> {
             found,
         })
     };
-    let Field::Value(root) = json::parse::<Root<'_>>(source, text)? else {
+    let Field::Value(root) = json::parse_part::<Root<'_>>(source, whole, text)? else {
         return Err(fail("the root", "an object", "something else".into()));
     };
     if let Some(kind) = root.features.wrong_type() {

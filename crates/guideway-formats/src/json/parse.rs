@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::field::{Field, FromJson};
 use super::limits;
+use super::scan::offset_in;
 use crate::source::Source;
 use crate::text::{line_column, printable};
 use crate::{Problem, ReadError};
@@ -17,9 +18,25 @@ pub(crate) fn parse<'t, T: FromJson<'t>>(
     source: &Source<'_>,
     text: &'t str,
 ) -> Result<Field<T>, ReadError> {
-    limits::check(text, &source.options.limits).map_err(|p| source.fail(p))?;
+    parse_part(source, text, text)
+}
+
+/// Parses a part of a text, or a text of its own, as one value. Errors have their place in the
+/// whole text.
+///
+/// # Errors
+/// As [`parse`].
+pub(crate) fn parse_part<'t, T: FromJson<'t>>(
+    source: &Source<'_>,
+    text: &str,
+    part: &'t str,
+) -> Result<Field<T>, ReadError> {
+    limits::check(part, &source.options.limits).map_err(|p| source.fail(p))?;
     source.check_cancelled()?;
-    parse_checked(text).map_err(|error| source.fail(problem(&error, text, 0)))
+    parse_checked(part).map_err(|error| {
+        let (text, at) = offset_in(text, part).map_or((part, 0), |at| (text, at));
+        source.fail(problem(&error, text, at))
+    })
 }
 
 /// Parses a whole text that is within the limits.
@@ -82,11 +99,17 @@ fn reword(message: &str, rest: &str) -> String {
     const OTHER_QUOTES: [char; 7] = [
         '\'', '`', '\u{2018}', '\u{2019}', '\u{201C}', '\u{201D}', '\u{201E}',
     ];
-    if let ("key must be a string" | "expected value", true) =
-        (message, rest.starts_with(OTHER_QUOTES))
-    {
-        let quote = rest.chars().next().unwrap_or_default();
-        return format!("found the quote {quote}; JSON wants double quotes around names and texts");
+    const COMMENTS: [&str; 3] = ["//", "/*", "#"];
+    if matches!(message, "key must be a string" | "expected value") {
+        if rest.starts_with(OTHER_QUOTES) {
+            let quote = rest.chars().next().unwrap_or_default();
+            return format!(
+                "found the quote {quote}; JSON wants double quotes around names and texts"
+            );
+        }
+        if COMMENTS.iter().any(|mark| rest.starts_with(mark)) {
+            return "found a comment; JSON has none".into();
+        }
     }
     let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
     match (message, &rest[..end.unwrap_or(rest.len())]) {
@@ -99,6 +122,9 @@ fn reword(message: &str, rest: &str) -> String {
         ("number out of range", _) => "the number exceeds the range of double precision".into(),
         ("key must be a string", _) => "expected a key in quotes; check for a surplus comma".into(),
         ("trailing comma", _) => "surplus comma after the last value".into(),
+        ("trailing characters", _) if rest.starts_with('{') => {
+            "a second object follows; write each layout to a file of its own".into()
+        }
         ("trailing characters", _) => "surplus text after the end of the layout".into(),
         ("expected value", "") => "expected a value".into(),
         ("expected value", word) => format!("expected a value, found `{word}`"),

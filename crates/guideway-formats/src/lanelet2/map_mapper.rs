@@ -57,6 +57,7 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
     /// When the layout exceeds a limit, or when the caller cancels.
     pub(super) fn read(mut self, root: Node<'d, 't>) -> Result<Layout, ReadError> {
         self.positions = positions(&mut self.base.builder, self.base.xml, root);
+        self.base.refuse_includes()?;
         let mut counts = [("nodes", 0), ("ways", 0), ("lanelets", 0)];
         let mut relations: BTreeMap<&str, u64> = BTreeMap::new();
         for element in root.children().filter(Node::is_element) {

@@ -45,6 +45,7 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
         for road in roads() {
             self.map_road(road)?;
         }
+        self.reader.base.refuse_includes()?;
         for (list, tag) in NOT_DRAWN {
             let lists = roads().flat_map(|road| children(road, list));
             let count = lists.flat_map(|list| children(list, tag)).count();

@@ -131,6 +131,7 @@ impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
     /// When the layout exceeds a limit, or when the caller cancels.
     pub(super) fn read(mut self, model: Node<'d, 't>) -> Result<Layout, ReadError> {
         self.map_version(model)?;
+        self.reader.base.refuse_includes()?;
         let leaving =
             children(model, "path").map(|p| (p.attribute("sourcePoint"), name_or_empty(p)));
         let leaving: HashSet<_> = leaving.collect();

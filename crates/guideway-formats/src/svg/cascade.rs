@@ -28,6 +28,13 @@ macro_rules! properties {
                     _ => None,
                 }
             }
+
+            /// The name in a style sheet.
+            pub(super) fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
         }
     };
 }
@@ -61,11 +68,12 @@ properties! {
     Radius "r"
     RadiusX "rx"
     RadiusY "ry"
+    PathData "d"
 }
 
 /// Properties that state the geometry of a shape, as the attributes of their names do. SVG 2,
 /// section 7.
-const GEOMETRY: [Property; 9] = [
+const GEOMETRY: [Property; 10] = [
     Property::X,
     Property::Y,
     Property::Width,
@@ -75,6 +83,16 @@ const GEOMETRY: [Property; 9] = [
     Property::Radius,
     Property::RadiusX,
     Property::RadiusY,
+    Property::PathData,
+];
+
+/// Properties that transform an element.
+const TRANSFORMS: [Property; 5] = [
+    Property::Transform,
+    Property::Translate,
+    Property::Rotate,
+    Property::Scale,
+    Property::TransformOrigin,
 ];
 
 /// Rank of a declaration among those of the same property.
@@ -101,6 +119,8 @@ struct Declaration<'d> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cascade<'d> {
     winners: Vec<Declaration<'d>>,
+    /// The first declaration of a place or a shape whose value is not one that is read.
+    unread: Option<(Property, &'d str)>,
 }
 
 impl<'d> Cascade<'d> {
@@ -150,6 +170,11 @@ impl<'d> Cascade<'d> {
                 priority,
                 value,
             });
+        } else if GEOMETRY.contains(&property) || TRANSFORMS.contains(&property) {
+            // Words such as `auto` leave the property as it is.
+            let has_number = value.contains(|c: char| c.is_ascii_digit());
+            let unread = has_number.then_some((property, value));
+            self.unread = self.unread.or(unread);
         }
     }
 
@@ -173,6 +198,13 @@ impl<'d> Cascade<'d> {
                 ..declaration
             });
         }
+        self.unread = self.unread.or(other.unread);
+    }
+
+    /// The property of a place or a shape that has no value because none that is declared is read.
+    pub(super) fn unread(&self) -> Option<(Property, &'d str)> {
+        self.unread
+            .filter(|(property, _)| self.value(*property).is_none())
     }
 
     /// The length that a property of the geometry has, by its name.
@@ -234,7 +266,16 @@ fn is_valid(property: Property, value: &str) -> bool {
             | Property::Radius
             | Property::RadiusX
             | Property::RadiusY => is_length(value),
+            Property::PathData => value == "none" || path_function(value).is_some(),
         }
+}
+
+/// The path data in a value of the property `d`, such as `path("M0 0L1 1")`.
+pub(super) fn path_function(value: &str) -> Option<&str> {
+    let inner = value.strip_prefix("path(")?.strip_suffix(')')?.trim();
+    ['"', '\'']
+        .into_iter()
+        .find_map(|quote| inner.strip_prefix(quote)?.strip_suffix(quote))
 }
 
 /// Parses an opacity, a number or a percentage, and clamps it to 0..=1.

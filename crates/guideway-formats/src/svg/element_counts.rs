@@ -4,7 +4,9 @@ use guideway_layout::{Code, Place};
 use roxmltree::Node;
 
 use super::shapes::SHAPES;
+use super::style_sheet::StyleSheet;
 use crate::builder::{Builder, PlaceFn};
+use crate::text::printable;
 
 /// Elements that show something other than a path.
 const NOT_DRAWN: [&str; 4] = ["text", "image", "foreignObject", "video"];
@@ -23,12 +25,12 @@ pub(super) fn element_counts(root: Node<'_, '_>) -> Vec<(String, u64)> {
 }
 
 /// Reports texts, images and definitions, the number of `clipped` paths, and the number of
-/// `ignored_selectors` of style sheets.
+/// unsupported selectors of style sheets; and the style sheets of other files.
 pub(super) fn report_ignored(
     builder: &mut Builder<'_>,
     root: Node<'_, '_>,
     clipped: u64,
-    ignored_selectors: usize,
+    sheet: &StyleSheet<'_>,
 ) {
     let at: PlaceFn<'_> = &|| Place::element("the drawing");
     let mut report = |message: String, remedy: &str| {
@@ -52,10 +54,17 @@ pub(super) fn report_ignored(
         let remedy = "They are drawn without clipping; cut them in the drawing program";
         report(message, remedy);
     }
-    if ignored_selectors > 0 {
-        let message = format!("unsupported style sheet selectors: {ignored_selectors}");
+    let ignored = sheet.ignored_selectors;
+    if ignored > 0 {
+        let message = format!("unsupported style sheet selectors: {ignored}");
         let remedy = "Guideway reads rules for an element, a class or an identifier";
         report(message, remedy);
+    }
+    for file in &sheet.in_other_files {
+        let message = || format!("the style sheet `{}` is not in this file", printable(file));
+        let remedy = "Lines may have other colors and widths, or be hidden: put its rules into a \
+                      <style> element";
+        builder.report(Code::UnknownValue, at, message, remedy);
     }
 }
 

@@ -1,14 +1,17 @@
 //! Maps shapes to the paths of a layout, with color, width and group.
 
+use std::collections::HashMap;
+
 use guideway_layout::{Code, Direction, Layout, NewPath, Value};
 use guideway_spline::{Affine, Bounds};
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use super::cascade::Cascade;
 use super::context::ElementContext;
 use super::element_counts::{element_counts, report_ignored};
 use super::path_builder::PathBuilder;
-use super::shapes::append_shape;
+use super::shapes::{append_shape, unread_length};
+use super::style_sheet::StyleSheet;
 use super::viewport::METERS_PER_PX;
 use crate::ReadError;
 use crate::builder::Table;
@@ -27,6 +30,27 @@ pub(super) struct ShapeMapper<'a, 'd, 't> {
     pub(super) clipped: u64,
     /// The box of the shapes so far, while an element is measured; then nothing else is collected.
     pub(super) measured: Option<Option<Bounds<f64>>>,
+    names: LineNames,
+}
+
+/// Tells the elements of one line apart that have no identifier.
+#[derive(Default)]
+struct LineNames {
+    numbers: HashMap<NodeId, u32>,
+    /// Number of named elements per line.
+    counts: HashMap<u32, u32>,
+}
+
+impl LineNames {
+    /// The number of an element among those of its line, from 1.
+    fn number(&mut self, node: NodeId, line: u32) -> u32 {
+        let counts = &mut self.counts;
+        *self.numbers.entry(node).or_insert_with(|| {
+            let count = counts.entry(line).or_default();
+            *count += 1;
+            *count
+        })
+    }
 }
 
 impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
@@ -37,6 +61,7 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
             widths_m: Vec::new(),
             clipped: 0,
             measured: None,
+            names: LineNames::default(),
         }
     }
 
@@ -95,6 +120,9 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
             self.base
                 .report(Code::WrongType, node, || error.to_string(), remedy);
         }
+        if let Some((name, text)) = unread_length(node, cascade, context.viewport) {
+            self.report_unread(node, name, text);
+        }
         self.clipped += u64::from(style.is_clipped);
         let id = self.path_id(node, context);
         self.base.builder.check_text(&id)?;
@@ -120,6 +148,17 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
             }
             None => Ok(()),
         }
+    }
+
+    /// Reports a value that is not read, by its attribute or property.
+    pub(super) fn report_unread(&mut self, node: Node<'d, 't>, name: &str, value: &str) {
+        let message = || {
+            let start: String = value.chars().take(40).collect();
+            format!("its `{name}` is `{start}`, which is malformed or not supported")
+        };
+        let remedy = "It is drawn as without it; state it in other units, or apply it in the \
+                      drawing program";
+        self.base.report(Code::WrongType, node, message, remedy);
     }
 
     fn path_builder(&self, context: &ElementContext<'_>) -> PathBuilder {
@@ -168,16 +207,17 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
     }
 
     /// Sets styles, counts and provenance of the layout, and reports ignored elements.
-    pub(super) fn finish(self, root: Node<'d, 't>, ignored_selectors: usize) -> Layout {
+    pub(super) fn finish(self, root: Node<'d, 't>, sheet: &StyleSheet<'_>) -> Layout {
         let Self {
             base,
             colors,
             widths_m,
             clipped,
             measured: _,
+            names: _,
         } = self;
         let mut builder = base.builder;
-        report_ignored(&mut builder, root, clipped, ignored_selectors);
+        report_ignored(&mut builder, root, clipped, sheet);
         let mut layout = builder.layout;
         crate::Format::Svg
             .name()
@@ -209,15 +249,20 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         self.base.refuse(&id, code, node, detail, remedy)
     }
 
-    fn path_id(&self, node: Node<'d, 't>, context: &ElementContext<'_>) -> String {
+    fn path_id(&mut self, node: Node<'d, 't>, context: &ElementContext<'_>) -> String {
         format!("{}{}", context.id_prefix, self.element_id(node))
     }
 
-    /// The identifier of an element, or `line N` if it has none.
-    pub(super) fn element_id(&self, node: Node<'d, 't>) -> String {
-        match node.attribute("id") {
-            Some(id) if !id.is_empty() => id.to_owned(),
-            _ => format!("line {}", self.base.xml.position(node).line),
+    /// The identifier of an element, or `line N` if it has none; `line N (2)` for the second one
+    /// of a line, and so on.
+    pub(super) fn element_id(&mut self, node: Node<'d, 't>) -> String {
+        if let Some(id) = node.attribute("id").filter(|id| !id.is_empty()) {
+            return id.to_owned();
+        }
+        let line = self.base.xml.position(node).line;
+        match self.names.number(node.id(), line) {
+            1 => format!("line {line}"),
+            number => format!("line {line} ({number})"),
         }
     }
 }

@@ -6,7 +6,7 @@ use guideway_spline::{Affine, Point};
 use roxmltree::Node;
 use svgtypes::PointsParser;
 
-use super::cascade::Cascade;
+use super::cascade::{Cascade, path_function};
 use super::path_builder::PathBuilder;
 use super::viewport::Viewport;
 
@@ -46,7 +46,13 @@ pub(super) fn append_shape(
     let x = |name| number(name, Viewport::width).unwrap_or(0.0);
     let y = |name| number(name, Viewport::height).unwrap_or(0.0);
     match node.tag_name().name() {
-        "path" => path.push_path_data(node.attribute("d").unwrap_or_default())?,
+        "path" => {
+            let data = match cascade.geometry("d") {
+                Some(value) => path_function(value),
+                None => node.attribute("d"),
+            };
+            path.push_path_data(data.unwrap_or_default())?;
+        }
         "rect" => {
             let (width, height) = (x("width"), y("height"));
             let [rx, ry] = radii(number);
@@ -85,6 +91,30 @@ pub(super) fn append_shape(
         }
     }
     Ok(())
+}
+
+/// The first attribute of a shape that should be a length and is none that is read.
+pub(super) fn unread_length<'d>(
+    node: Node<'d, '_>,
+    cascade: &Cascade<'_>,
+    viewport: Viewport,
+) -> Option<(&'static str, &'d str)> {
+    let names: &[&'static str] = match node.tag_name().name() {
+        "rect" => &["x", "y", "width", "height", "rx", "ry"],
+        "circle" => &["cx", "cy", "r"],
+        "ellipse" => &["cx", "cy", "rx", "ry"],
+        "line" => &["x1", "y1", "x2", "y2"],
+        _ => &[],
+    };
+    let stated = names
+        .iter()
+        .filter(|name| cascade.geometry(name).is_none())
+        .filter_map(|&name| Some((name, node.attribute(name)?)));
+    let mut unread = stated.filter(|(_, text)| {
+        let is_word = text.trim() == "auto" || text.trim().is_empty();
+        !is_word && viewport.length(text, Viewport::width).is_none()
+    });
+    unread.next()
 }
 
 /// The radii of a rectangle's corner or of an ellipse: one that is missing or negative is as the

@@ -136,7 +136,8 @@ impl Style {
             | Property::CenterY
             | Property::Radius
             | Property::RadiusX
-            | Property::RadiusY => {}
+            | Property::RadiusY
+            | Property::PathData => {}
         }
     }
 

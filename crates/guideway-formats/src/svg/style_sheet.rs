@@ -19,12 +19,19 @@ pub(super) struct StyleSheet<'d> {
     rule_count: usize,
     /// Number of unsupported selectors: combinators, pseudo-classes, attributes, at-rules.
     pub(super) ignored_selectors: usize,
+    /// Names of style sheets in other files, which are not read.
+    pub(super) in_other_files: Vec<&'d str>,
 }
 
 impl<'d> StyleSheet<'d> {
     /// Reads all `style` elements.
     pub(super) fn read(root: Node<'d, '_>) -> Self {
         let mut sheet = Self::default();
+        let around = root.document().root();
+        let instructions = around.children().filter_map(|node| node.pi());
+        for instruction in instructions.filter(|pi| pi.target == "xml-stylesheet") {
+            sheet.add_other_file(instruction.value.and_then(href));
+        }
         for style in root.descendants().filter(|node| node.has_tag_name("style")) {
             sheet.add(style.text().unwrap_or_default());
         }
@@ -47,6 +54,7 @@ impl<'d> StyleSheet<'d> {
                 let is_block = text[end..].starts_with('{');
                 text = if is_block { after_block(rest) } else { rest };
                 self.ignored_selectors += usize::from(is_block);
+                self.add_other_file(head.strip_prefix("@import").and_then(import));
                 continue;
             }
             let length = rest.find('}').unwrap_or(rest.len());
@@ -60,6 +68,16 @@ impl<'d> StyleSheet<'d> {
                     false => self.ignored_selectors += 1,
                 }
             }
+        }
+    }
+
+    /// Adds the name of a style sheet, unless it is within this file.
+    fn add_other_file(&mut self, name: Option<&'d str>) {
+        /// Names that are reported; bounds the findings of a hostile file.
+        const MAX_NAMES: usize = 8;
+        let name = name.filter(|name| !name.starts_with('#') && !name.starts_with("data:"));
+        if self.in_other_files.len() < MAX_NAMES {
+            self.in_other_files.extend(name);
         }
     }
 
@@ -94,6 +112,31 @@ impl<'d> StyleSheet<'d> {
         cascade.add_block(node.attribute("style").unwrap_or_default(), INLINE, 0);
         cascade
     }
+}
+
+/// The reference in an instruction `xml-stylesheet`, such as `type="text/css" href="a.css"`.
+fn href(instruction: &str) -> Option<&str> {
+    let (_, rest) = instruction.split_once("href")?;
+    quoted(rest.trim_start().strip_prefix('=')?.trim_start())
+}
+
+/// The name in a rule `@import`, such as `url("a.css") screen`.
+fn import(rule: &str) -> Option<&str> {
+    let rule = rule.trim();
+    match rule.strip_prefix("url(") {
+        Some(rest) => {
+            let (name, _) = rest.split_once(')')?;
+            Some(quoted(name.trim()).unwrap_or(name.trim()))
+        }
+        None => quoted(rule),
+    }
+}
+
+/// The content of the quotes at the start of a text.
+fn quoted(text: &str) -> Option<&str> {
+    let quote = text.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+    let (content, _) = text[1..].split_once(quote)?;
+    Some(content)
 }
 
 /// Tells if a head is that of rules for every screen.

@@ -21,6 +21,7 @@ use super::style_sheet::StyleSheet;
 use super::viewport::{METERS_PER_PX, Viewport, corner, view_box, view_box_transform};
 use crate::ReadError;
 use crate::source::Source;
+use crate::text::percent_decoded;
 use crate::xml::Xml;
 use crate::xml_builder::XmlBuilder;
 
@@ -76,7 +77,8 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         for child in root.children() {
             self.element(child, &context)?;
         }
-        Ok(self.mapper.finish(root, self.sheet.ignored_selectors))
+        self.mapper.base.refuse_includes()?;
+        Ok(self.mapper.finish(root, self.sheet))
     }
 
     /// The context of the children of the root.
@@ -146,6 +148,9 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             return Ok(());
         }
         let cascade = self.sheet.cascade(node);
+        if let Some((property, value)) = cascade.unread() {
+            self.mapper.report_unread(node, property.name(), value);
+        }
         let mut style = context
             .style
             .of_child(&cascade, context.viewport, &self.paint_servers);
@@ -254,7 +259,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         context: &ElementContext<'_>,
     ) -> Result<(), ReadError> {
         let href = node.attribute("href").or(node.attribute((XLINK, "href")));
-        let target = href.and_then(|href| self.ids.get(href.trim().strip_prefix('#')?).copied());
+        let target = href.and_then(|href| self.element_named(href.trim().strip_prefix('#')?));
         let Some(target) = target else {
             let message = || match href {
                 Some(href) => format!("its target `{href}` is not in this file"),
@@ -279,6 +284,13 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         let result = self.target(node, target, context);
         self.targets.pop();
         result
+    }
+
+    /// The element of an identifier, which a reference may state with `%` and the bytes of its
+    /// characters.
+    fn element_named(&self, fragment: &str) -> Option<Node<'d, 't>> {
+        let found = self.ids.get(fragment).copied();
+        found.or_else(|| self.ids.get(percent_decoded(fragment)?.as_str()).copied())
     }
 
     /// Walks the target of a `use` element.

@@ -22,7 +22,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     let mut places = Vec::with_capacity(documents.len());
     let mut others = Vec::new();
     for (i, document) in documents.iter().enumerate() {
-        match order(&source, document) {
+        match order(&source, text, document) {
             Ok(root) => {
                 orders.push(root);
                 places.push(Places::of(text, raw[i], document));
@@ -53,9 +53,9 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     Ok(layout)
 }
 
-/// Parses an order.
-fn order<'t>(source: &Source<'_>, text: &'t str) -> Result<Root<'t>, ReadError> {
-    let Field::Value(root) = json::parse::<Root<'_>>(source, text)? else {
+/// Parses an order, which is `text` or a part of the whole text.
+fn order<'t>(source: &Source<'_>, whole: &str, text: &'t str) -> Result<Root<'t>, ReadError> {
+    let Field::Value(root) = json::parse_part::<Root<'_>>(source, whole, text)? else {
         return Err(source.fail(not_an_order("the root", "an object", "something else")));
     };
     let lists = [

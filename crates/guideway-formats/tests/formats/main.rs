@@ -37,6 +37,7 @@ mod opentcs;
 mod opentcs_columns;
 mod opentcs_files;
 mod opentcs_write;
+mod other_files;
 mod refusals;
 mod right_findings;
 mod rmf;

@@ -162,9 +162,14 @@ fn sequences_of_features_are_one_collection() {
         assert_eq!(ids, ["f1", "f2", "f3"], "{text}");
         assert_eq!(codes(&layout), [Code::AssumedUnit]);
     }
-    // A broken line is an error of the file.
+    // A broken line is an error of the file, at its place in it.
     let broken = format!("{first}\n{}", &second[..40]);
-    assert!(read_bytes("test", broken.as_bytes(), &ReadOptions::default()).is_err());
+    let error = |text: &str| read_bytes("test", text.as_bytes(), &ReadOptions::default());
+    let cut = error(&broken).unwrap_err().to_string();
+    assert!(cut.contains("cut at line 2, column 41"), "{cut}");
+    let damaged = format!("{first}\n {{bad\n{second}");
+    let damaged = error(&damaged).unwrap_err().to_string();
+    assert!(damaged.contains("line 2, column 3"), "{damaged}");
 }
 
 #[test]
@@ -182,6 +187,29 @@ fn other_quotes_are_named() {
 }
 
 #[test]
+fn comments_and_further_layouts_are_named() {
+    let error = |text: &str| {
+        let error = read_bytes("test", text.as_bytes(), &ReadOptions::default());
+        error.unwrap_err().to_string()
+    };
+    for text in [
+        "{ // a\n\"layouts\": []}",
+        "{\"layouts\": /* a */ []}",
+        "{ # a\n}",
+    ] {
+        assert!(
+            error(text).contains("comment; JSON has none"),
+            "{}",
+            error(text)
+        );
+    }
+    let two = error("{\"layouts\": []}\n{\"layouts\": []}");
+    assert!(two.contains("line 2, column 1: a second object"), "{two}");
+    let surplus = error("{\"layouts\": []}\nx");
+    assert!(surplus.contains("surplus text"), "{surplus}");
+}
+
+#[test]
 fn other_formats_are_named_with_a_way_out() {
     for (bytes, name, remedy) in [
         (&b"PAR1\x15\x04"[..], "Parquet", "write_feather"),
@@ -190,6 +218,7 @@ fn other_formats_are_named_with_a_way_out() {
         (b"PK\x03\x04\x14", "ZIP", "Unpack"),
         (b"\x28\xB5\x2F\xFD\x04", "zstd", "Unpack"),
         (b"\x89PNG\r\n\x1A\n", "PNG", "--floor-plan"),
+        (b"P5\n# map\n4 4\n255\n\0", "PGM", "--floor-plan"),
         (b"%PDF-1.7\n", "PDF", "SVG"),
         (b"SQLite format 3\0\x10", "GeoPackage", "ogr2ogr"),
         (
@@ -213,6 +242,21 @@ fn other_formats_are_named_with_a_way_out() {
             "TopoJSON",
             "ogr2ogr",
         ),
+        (b"<LandXML version='1.2'/>", "LandXML", "DXF"),
+        (b"<c:IndoorFeatures xmlns:c='u'/>", "IndoorGML", "ogr2ogr"),
+        (b"fgb\x03fgb\0", "FlatGeobuf", "ogr2ogr"),
+        (b"\x08\x09\xFE\x02", "DGN", "DXF"),
+        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1\0", "Visio", "DXF"),
+        (b"%!PS-Adobe-3.0 EPSF-3.0", "PostScript", "SVG"),
+        (b"ISO-10303-21;\nHEADER;", "IFC", "plan"),
+        (b"\0\0\0\x0D\x0A\x09OSMHeader", "PBF", "osmium"),
+        (b"#ROSBAG V2.0\n", "recording", "route"),
+        (b"id,x1,y1\na,0,0\n", "separated values", "GeoJSON"),
+        (
+            b"\xEF\xBB\xBFid;wkt\r\n1;POINT(1 2)",
+            "separated values",
+            "Arrow",
+        ),
         (b"LINESTRING Z (0 0 1, 1 1 1)", "(WKT)", "ogr2ogr"),
         (b"srid=4326;Polygon ((0 0", "(WKT)", "ogr2ogr"),
         (b"// by ACME\n{\"layouts\": []}", "comments", "remove them"),
@@ -231,8 +275,15 @@ fn other_formats_are_named_with_a_way_out() {
         );
         assert!(hint.contains(remedy), "{text}: {hint}");
     }
-    let point = read_bytes("test", b"POINT OF SALE", &ReadOptions::default());
-    assert_eq!(point.unwrap_err().code(), "unknown-format");
+    for text in [
+        "POINT OF SALE",
+        "a, b\nc",
+        "x = 1,2\ny = 3,4",
+        "to: a,b\nfrom: c,d",
+    ] {
+        let unknown = read_bytes("test", text.as_bytes(), &ReadOptions::default());
+        assert_eq!(unknown.unwrap_err().code(), "unknown-format", "{text}");
+    }
     // A key of a layout counts more.
     let text = b"{\"features\": [], \"type\": \"FeatureCollection\", \"arcs\": []}";
     assert!(read_bytes("test", text, &ReadOptions::default()).is_ok());

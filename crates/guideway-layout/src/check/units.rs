@@ -9,6 +9,9 @@ use crate::{Attribute, Code, Diagnostics, Layout, Member, Place, Quantity, TypeE
 
 /// Fastest plausible speed: no road vehicle exceeds it.
 const LARGEST_SPEED_M_PER_S: f64 = 100.0;
+/// Fastest plausible turn on the spot, in radians per second: a full turn per second. In degrees,
+/// slow turns have larger numbers.
+const LARGEST_ROTATION_RAD_PER_S: f64 = TAU;
 /// Writers round angles to four digits.
 const ROUNDING_RAD: f64 = 1.5e-5;
 /// Largest plausible angle: a full turn.
@@ -179,6 +182,10 @@ fn check_column(
         Some(Quantity::Speed) => (
             LARGEST_SPEED_M_PER_S,
             "Check whether the speeds are in mm/s",
+        ),
+        Some(Quantity::RotationSpeed) => (
+            LARGEST_ROTATION_RAD_PER_S,
+            "Check whether the rotation speeds are in degrees per second",
         ),
         Some(Quantity::Angle) => (largest_angle, "Check whether the angles are in degrees"),
         _ if column.name == ORIENTATIONS => {
