@@ -96,8 +96,8 @@ mod tests {
         let packed = pack(b"<svg/>");
         let cut = unpack(&packed[..packed.len() - 3], &limits);
         assert!(matches!(cut, Err(Problem::Truncated { .. })), "{cut:?}");
-        let followed = unpack(&[&packed[..], b"and more"].concat(), &limits);
-        let error = followed.unwrap_err().to_string();
+        let followed = [&packed[..], b"and more"].concat();
+        let error = unpack(&followed, &limits).unwrap_err().to_string();
         assert!(error.contains("8 bytes follow"), "{error}");
         let mut wrong = packed.clone();
         wrong[packed.len() - 6] ^= 1;

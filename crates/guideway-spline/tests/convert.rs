@@ -292,6 +292,7 @@ fn errors_state_expected_and_actual_values() {
 }
 
 /// Ends and middle of the runs of a curve, and those of its evaluation, which are the same.
+#[allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 fn ends_and_middle(degree: usize, knots: Vec<f64>, points: &[P], weights: &[f64]) -> [P; 3] {
     let curve = Nurbs::new(degree, knots, points.to_vec(), Some(weights.to_vec())).unwrap();
     let mut runs = Runs::default();

@@ -86,16 +86,16 @@ impl Session {
         })
     }
 
-    /// Extent, counts, levels, vehicle types, columns and formats to save in, as JSON. The length is
-    /// left out: see [`Self::length_m`].
+    /// Extent, counts, levels, vehicle types, columns and formats to save in, as JSON. The length
+    /// is left out: see [`Self::length_m`].
     pub fn info(&self) -> String {
         let mut info = guideway::json::counts(&self.layout);
         info["name"] = json!(self.name);
         info.to_string()
     }
 
-    /// Length of the curves of at most `count` rows of paths from `first` on, in meters. A page asks
-    /// for some rows at a time, after its first picture: all take 0.8 s for a million paths.
+    /// Length of the curves of at most `count` rows of paths from `first` on, in meters. A page
+    /// asks for some rows at a time, after its first picture: all take 0.8 s for a million paths.
     pub fn length_m(&self, first: usize, count: usize) -> f64 {
         let all = self.layout.paths.len();
         let end = first.saturating_add(count).min(all);

@@ -127,7 +127,7 @@ fn points_of_weight_zero_pull_nothing() {
         assert_eq!(codes(&layout), [Code::BadWeight], "{weights:?}");
         assert!(layout.paths.written_curve(0).is_some(), "{weights:?}");
     }
-    // Where all weights are zero there is no curve.
+    // Weights that are all zero define no curve.
     for weights in [[0.0; 3], [1.0, -1.0, 1.0]] {
         let layout = trajectory(&points(weights));
         assert_eq!(codes(&layout), [Code::BadWeight], "{weights:?}");

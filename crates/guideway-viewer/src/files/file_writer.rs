@@ -42,7 +42,7 @@ pub(crate) enum WriteOutcome {
     Saved {
         /// The state of the file after that.
         state: Stamp,
-        /// Whether the file as read was copied for the journal before.
+        /// Result of the copy of the file as read, which is made for the journal before.
         copied: io::Result<()>,
     },
     /// Nothing is written: the user has not agreed to replace the file that is there.

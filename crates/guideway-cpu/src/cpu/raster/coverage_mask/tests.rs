@@ -1,5 +1,7 @@
 //! Masks against hand-counted coverage.
 
+use guideway_scene::Rgba;
+
 use super::*;
 use crate::cpu::ground::samples::LAYERED;
 use crate::cpu::raster::background::Background;
