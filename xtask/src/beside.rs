@@ -23,9 +23,10 @@ impl Beside {
             "\nbeside the next: cargo xtask {task}, into {}",
             log.display()
         );
-        let process = step::command(std::env::current_exe()?)
-            .args([task])
-            .start(file)?;
+        // By its name: the build of the tests can have replaced the file of this process.
+        let program = format!("xtask{}", std::env::consts::EXE_SUFFIX);
+        let program = std::env::current_exe()?.with_file_name(program);
+        let process = step::command(program).args([task]).start(file)?;
         Ok(Self { task, process, log })
     }
 
