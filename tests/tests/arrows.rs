@@ -126,7 +126,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     (
         "png",
         "guideway-compose guideway-formats guideway-bench guideway-reproduce guideway-tests \
-         guideway-tiles",
+         guideway-tiles xtask",
     ),
     ("wgpu", "guideway-gpu guideway-grid guideway-tree"),
     ("glow", "guideway-tessellation"),
