@@ -196,5 +196,7 @@ fn new_layouts_lie_beside_open_files_and_close_like_them() {
     window.key(CTRL, Key::S);
     window.app().dialogs.prompt.open_mut().unwrap().text = "site.arrow".into();
     window.key(NONE, Key::Enter);
+    window.wait(|app| app.dialogs.confirm.is_open());
+    window.harness.run_steps(2);
     assert!(window.harness.query_by_label("Replace it").is_some());
 }
