@@ -140,8 +140,18 @@ impl<'a, const C: usize> ClusterInTile<'a, C> {
 
     /// The path of a member of the cluster.
     #[inline(always)]
-    pub(crate) fn path(&self, member: usize) -> u32 {
+    fn path(&self, member: usize) -> u32 {
         self.job.index.rows_of(self.visible.cluster)[member]
+    }
+
+    /// The path of a piece; `None` if the cluster has no lines.
+    #[inline(always)]
+    pub(crate) fn path_of(&self, piece: usize) -> Option<u32> {
+        match self.lines() {
+            ClusterLines::Cached(_, lines) => Some(self.path(lines.member(piece))),
+            ClusterLines::Clipped(lines) => Some(self.path(lines.member(piece))),
+            ClusterLines::None => None,
+        }
     }
 
     /// Box in which lines may touch the tile, in the unit of their vertices.

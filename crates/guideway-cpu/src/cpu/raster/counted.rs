@@ -14,6 +14,7 @@ use super::coverage_mask::CoverageMask;
 use super::disc::Disc;
 use super::job::{BandJob, Tile};
 use super::line_batch::LineBatch;
+use super::waiting_lines::WaitingLines;
 use crate::cpu::flatten::cluster_lines::ClusterLines;
 use crate::cpu::flatten::polylines::{Coordinate, bits_below};
 use crate::cpu::flatten::tile_lines::TileLines;
@@ -50,12 +51,7 @@ pub(crate) struct CountedTile<'a> {
     cap_tables: &'a mut CapTables<LAYERED>,
     counts: &'a mut SampleHalves,
     ends: &'a mut Vec<PathEnd>,
-    x: [[f32; LANES]; 2],
-    y: [[f32; LANES]; 2],
-    paths: [u32; LANES],
-    len: usize,
-    /// Half the stroke width of all these lines, in columns.
-    radius: f32,
+    lines: WaitingLines,
     /// The path whose shape is in the mask, and the columns of pixels that it may touch, one bit
     /// each.
     shape: Option<u32>,
@@ -82,11 +78,7 @@ impl<'a> CountedTile<'a> {
             cap_tables,
             counts,
             ends,
-            x: [[0.0; LANES]; 2],
-            y: [[0.0; LANES]; 2],
-            paths: [0; LANES],
-            len: 0,
-            radius: 0.0,
+            lines: WaitingLines::default(),
             shape: None,
             shape_pixels: 0,
         }
@@ -114,14 +106,9 @@ impl<'a> CountedTile<'a> {
     }
 
     #[inline(always)]
-    fn path_of(&self, piece_ref: &PieceRef) -> Option<u32> {
-        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, piece_ref.key);
-        let piece = piece_ref.piece as usize;
-        match cluster.lines() {
-            ClusterLines::Cached(_, lines) => Some(cluster.path(lines.member(piece))),
-            ClusterLines::Clipped(lines) => Some(cluster.path(lines.member(piece))),
-            ClusterLines::None => None,
-        }
+    fn path_of(&self, piece: &PieceRef) -> Option<u32> {
+        let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, piece.key);
+        cluster.path_of(piece.piece as usize)
     }
 
     /// Keeps the ends of a path that touch the tile.
@@ -131,7 +118,7 @@ impl<'a> CountedTile<'a> {
             return;
         };
         let side = (TILE_PX * LAYERED) as f32;
-        let radius = self.radius_of(path);
+        let radius = self.job.radius::<LAYERED>(path);
         let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, key);
         let ends = open_ends(self.job.ctx.scene.layout().paths.get(path as usize));
         for at_m in ends.into_iter().flatten() {
@@ -147,10 +134,10 @@ impl<'a> CountedTile<'a> {
     #[inline(always)]
     fn add_lines(&mut self, piece_ref: &PieceRef) {
         let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, piece_ref.key);
-        let Some(path) = self.path_of(piece_ref) else {
+        let piece = piece_ref.piece as usize;
+        let Some(path) = cluster.path_of(piece) else {
             return;
         };
-        let piece = piece_ref.piece as usize;
         match cluster.lines() {
             ClusterLines::Cached(unit_m, lines) => {
                 self.add_piece(&cluster.map_cached(*unit_m, lines), piece, path);
@@ -169,60 +156,42 @@ impl<'a> CountedTile<'a> {
         piece: usize,
         path: u32,
     ) {
-        let radius = self.radius_of(path);
-        if radius != self.radius {
+        let radius = self.job.radius::<LAYERED>(path);
+        if radius != self.lines.radius {
             self.count_lines();
-            self.radius = radius;
+            self.lines.radius = radius;
         }
         for vertex in mapped.lines.line_starts(piece..piece + 1) {
             let [start, end] = [mapped.vertex(vertex), mapped.vertex(vertex + 1)];
-            self.x[0][self.len] = start.x;
-            self.x[1][self.len] = end.x;
-            self.y[0][self.len] = start.y;
-            self.y[1][self.len] = end.y;
-            self.paths[self.len] = path;
-            self.len += 1;
-            if self.len == LANES {
+            if self.lines.push(start, end, path) {
                 self.count_lines();
             }
         }
     }
 
-    /// Half the stroke width of a path, in columns.
-    #[inline(always)]
-    fn radius_of(&self, path: u32) -> f32 {
-        let common_px = self.job.common_radius_px;
-        columns::<LAYERED>(common_px.unwrap_or_else(|| self.job.ctx.radius_px(path)))
-    }
-
     /// Counts the lines that wait, or adds them to the shape of their path.
     #[inline(always)]
     fn count_lines(&mut self) {
-        let batch = LineBatch::new(self.x, self.y, self.radius);
-        let boxes = batch.boxes();
-        let open = boxes.open(self.mask.open());
-        let mut visible = bits_below(self.len) & open.lines;
-        self.len = 0;
-        if visible == 0 {
+        let Some(lines) = self.lines.take(self.mask) else {
             return;
-        }
-        let slopes = batch.slopes();
+        };
+        let mut visible = lines.visible;
         while visible != 0 {
             let lane = visible.trailing_zeros() as usize % LANES;
             visible &= visible - 1;
-            let path = self.paths[lane];
+            let path = lines.paths[lane];
             if self.shape != Some(path) {
                 self.end_shape();
             }
-            let next = self.paths[visible.trailing_zeros() as usize % LANES];
+            let next = lines.paths[visible.trailing_zeros() as usize % LANES];
             let is_alone = self.shape.is_none() && visible != 0 && next != path;
-            let caps = self.cap_tables.of(self.radius);
-            let pixel_box = boxes.pixel_box(lane, &open);
+            let caps = self.cap_tables.of(self.lines.radius);
+            let pixel_box = lines.pixel_box(lane);
+            let stroke = (&lines.capsule(lane), caps);
             if is_alone {
-                let stroke = (&batch.capsule(&slopes, lane), caps);
                 self.mask.count_stroke(&stroke, pixel_box, 2, self.counts);
             } else {
-                batch.stroke(lane, &slopes, pixel_box, self.mask, caps);
+                self.mask.stroke(&stroke, pixel_box);
                 self.shape = Some(path);
                 self.shape_pixels |= pixel_box.pixels;
             }

@@ -240,25 +240,30 @@ impl<const C: usize> CoverageMask<C> {
     /// Adds a part of a stroke to the shape.
     #[inline(always)]
     pub(crate) fn stroke(&mut self, stroke: &impl RowCoverage, part: PixelBox) {
-        let PixelBox { rows, pixels } = part;
-        let is_wide = pixels.count_ones() > stroke.width_px().saturating_add(WIDE_PX);
-        for row in set_bits(rows) {
-            let pixels = if is_wide {
-                pixels & stroke.pixels(row)
-            } else {
-                pixels
-            };
-            if let Some(windows) = self.open_windows(row, pixels) {
+        for row in set_bits(part.rows) {
+            if let Some(windows) = self.open_windows(stroke, row, part.pixels) {
                 let spans = stroke.spans(row);
                 self.add_all(windows, row, &spans);
             }
         }
     }
 
-    /// The windows from the first to the last open one of some pixels of a row; `None` if all are
-    /// full.
+    /// The windows from the first to the last open one that a part of a stroke may touch in a row
+    /// of pixels; `None` if all are full.
     #[inline(always)]
-    fn open_windows(&self, row: usize, pixels: u32) -> Option<Range<usize>> {
+    fn open_windows(
+        &self,
+        stroke: &impl RowCoverage,
+        row: usize,
+        pixels: u32,
+    ) -> Option<Range<usize>> {
+        // The same in all rows of a stroke.
+        let is_wide = pixels.count_ones() > stroke.width_px().saturating_add(WIDE_PX);
+        let pixels = if is_wide {
+            pixels & stroke.pixels(row)
+        } else {
+            pixels
+        };
         let open = self.open_pixels[row % TILE_PX] & pixels;
         (open != 0).then_some(Self::windows_of(open))
     }
@@ -330,15 +335,8 @@ impl<const C: usize> CoverageMask<C> {
         halves: i32,
         counts: &mut SampleHalves,
     ) {
-        let PixelBox { rows, pixels } = part;
-        let is_wide = pixels.count_ones() > stroke.width_px().saturating_add(WIDE_PX);
-        for row in set_bits(rows) {
-            let pixels = if is_wide {
-                pixels & stroke.pixels(row)
-            } else {
-                pixels
-            };
-            if let Some(windows) = self.open_windows(row, pixels) {
+        for row in set_bits(part.rows) {
+            if let Some(windows) = self.open_windows(stroke, row, part.pixels) {
                 let spans = stroke.spans(row);
                 let pixels = windows.start * Self::WINDOW_PX..windows.end * Self::WINDOW_PX;
                 for pixel in pixels {

@@ -9,6 +9,7 @@ use crate::cpu::bin::tile_lists::TileLists;
 use crate::cpu::flatten::line_cache::LineCache;
 use crate::cpu::ground::damage::{DamageMap, TileGrid};
 use crate::cpu::ground::frame_context::FrameContext;
+use crate::cpu::ground::samples::columns;
 
 /// A band of the picture, with its clusters, lines and tile lists.
 #[derive(Clone, Copy)]
@@ -31,6 +32,15 @@ pub(crate) struct BandJob<'a> {
     pub(crate) common_radius_px: Option<f64>,
     /// Half the stroke width of the widest path, in pixels.
     pub(crate) max_radius_px: f64,
+}
+
+impl BandJob<'_> {
+    /// Half the stroke width of a path, in columns.
+    #[inline(always)]
+    pub(crate) fn radius<const C: usize>(&self, path: u32) -> f32 {
+        let own_px = || self.ctx.radius_px(path);
+        columns::<C>(self.common_radius_px.unwrap_or_else(own_px))
+    }
 }
 
 /// A look for pixels that stay full in the frames to come.

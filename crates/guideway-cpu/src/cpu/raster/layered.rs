@@ -9,11 +9,11 @@ use super::caps::CapTables;
 use super::cluster_in_tile::{ClusterInTile, PieceRef};
 use super::coverage_mask::CoverageMask;
 use super::job::{BandJob, Tile};
-use super::line_batch::LineBatch;
+use super::waiting_lines::WaitingLines;
 use crate::cpu::flatten::cluster_lines::ClusterLines;
-use crate::cpu::flatten::polylines::{Coordinate, bits_below};
+use crate::cpu::flatten::polylines::Coordinate;
 use crate::cpu::flatten::tile_lines::TileLines;
-use crate::cpu::ground::samples::{LAYERED, columns};
+use crate::cpu::ground::samples::LAYERED;
 use crate::cpu::ground::tile::LANES;
 
 /// Strokes of one opaque color per shape. Compositing a shape detects full tiles, so smaller shapes
@@ -34,12 +34,7 @@ pub(crate) struct LayeredTile<'a> {
     tile: &'a Tile,
     mask: &'a mut CoverageMask<LAYERED>,
     cap_tables: &'a mut CapTables<LAYERED>,
-    x: [[f32; LANES]; 2],
-    y: [[f32; LANES]; 2],
-    paths: [u32; LANES],
-    len: usize,
-    /// Half the stroke width of all these lines, in columns.
-    radius: f32,
+    lines: WaitingLines,
     /// The layer of the shape in the mask, and its strokes.
     layer: Option<Layer>,
     strokes: usize,
@@ -58,11 +53,7 @@ impl<'a> LayeredTile<'a> {
             tile,
             mask,
             cap_tables,
-            x: [[0.0; LANES]; 2],
-            y: [[0.0; LANES]; 2],
-            paths: [0; LANES],
-            len: 0,
-            radius: 0.0,
+            lines: WaitingLines::default(),
             layer: None,
             strokes: 0,
         }
@@ -80,10 +71,8 @@ impl<'a> LayeredTile<'a> {
         let key = piece_ref.key;
         let cluster = ClusterInTile::<LAYERED>::new(self.job, self.tile, key);
         let piece = piece_ref.piece as usize;
-        let path = match cluster.lines() {
-            ClusterLines::Cached(_, lines) => cluster.path(lines.member(piece)),
-            ClusterLines::Clipped(lines) => cluster.path(lines.member(piece)),
-            ClusterLines::None => return,
+        let Some(path) = cluster.path_of(piece) else {
+            return;
         };
         match cluster.lines() {
             ClusterLines::Cached(unit_m, lines) => {
@@ -103,7 +92,7 @@ impl<'a> LayeredTile<'a> {
         piece: usize,
         path: u32,
     ) {
-        let radius = self.radius_of(path);
+        let radius = self.job.radius::<LAYERED>(path);
         let bounds = mapped.lines.bounds(piece);
         let reach = Point::new(radius + 1.0, radius + 1.0);
         let [min, max] = [bounds.min, bounds.max].map(|p| p * mapped.scale + mapped.offset);
@@ -112,58 +101,30 @@ impl<'a> LayeredTile<'a> {
         if !self.mask.is_open(min, max) {
             return;
         }
-        self.choose_radius(radius);
+        if radius != self.lines.radius {
+            self.flush();
+            self.lines.radius = radius;
+        }
         for vertex in mapped.lines.line_starts(piece..piece + 1) {
-            self.add_line(mapped.vertex(vertex), mapped.vertex(vertex + 1), path);
-        }
-    }
-
-    /// Half the stroke width of a path, in columns.
-    #[inline(always)]
-    fn radius_of(&self, path: u32) -> f32 {
-        let common_px = self.job.common_radius_px;
-        columns::<LAYERED>(common_px.unwrap_or_else(|| self.job.ctx.radius_px(path)))
-    }
-
-    #[inline(always)]
-    fn choose_radius(&mut self, radius: f32) {
-        if radius != self.radius {
-            self.flush();
-            self.radius = radius;
-        }
-    }
-
-    #[inline(always)]
-    fn add_line(&mut self, start: Point<f32>, end: Point<f32>, path: u32) {
-        self.x[0][self.len] = start.x;
-        self.x[1][self.len] = end.x;
-        self.y[0][self.len] = start.y;
-        self.y[1][self.len] = end.y;
-        self.paths[self.len] = path;
-        self.len += 1;
-        if self.len == LANES {
-            self.flush();
+            let [start, end] = [mapped.vertex(vertex), mapped.vertex(vertex + 1)];
+            if self.lines.push(start, end, path) {
+                self.flush();
+            }
         }
     }
 
     /// Strokes the lines that wait.
     #[inline(always)]
     fn flush(&mut self) {
-        let batch = LineBatch::new(self.x, self.y, self.radius);
-        let boxes = batch.boxes();
-        let open = boxes.open(self.mask.open());
-        let visible = bits_below(self.len) & open.lines;
-        self.len = 0;
-        if visible == 0 {
+        let Some(lines) = self.lines.take(self.mask) else {
             return;
-        }
-        let slopes = batch.slopes();
-        for lane in set_bits(visible) {
+        };
+        for lane in set_bits(lines.visible) {
             let lane = lane % LANES;
-            self.choose_layer(self.paths[lane]);
-            let caps = self.cap_tables.of(self.radius);
-            let pixel_box = boxes.pixel_box(lane, &open);
-            batch.stroke(lane, &slopes, pixel_box, self.mask, caps);
+            self.choose_layer(lines.paths[lane]);
+            let caps = self.cap_tables.of(self.lines.radius);
+            let stroke = (&lines.capsule(lane), caps);
+            self.mask.stroke(&stroke, lines.pixel_box(lane));
         }
     }
 

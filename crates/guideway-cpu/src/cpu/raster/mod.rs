@@ -8,6 +8,7 @@
 //! | `cluster_in_tile`             | the lines of one cluster relative to a tile              |
 //! | `layered`                     | several colors: strokes by descending draw rank          |
 //! | `counted`                     | densities: the samples of each path, counted once        |
+//! | `waiting_lines`               | lines that wait until they fill a batch                  |
 //! | `line_batch`                  | 16 lines side by side: boxes, slopes, capsules           |
 //! | `capsule`, `caps`             | sample spans of one stroke; tables of its round caps     |
 //! | `disc`                        | sample spans around the end of a path                    |
@@ -36,3 +37,4 @@ mod tests;
 pub(super) mod thread_scratch;
 pub(super) mod tile_rows;
 pub(super) mod tiles;
+pub(super) mod waiting_lines;
