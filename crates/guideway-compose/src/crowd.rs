@@ -199,12 +199,12 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use guideway_cpu::Cpu;
-    use guideway_layout::{Layout, NewPath};
     use guideway_scene::{Budget, MethodInfo, Prepared, Scene, SceneOptions};
-    use guideway_spline::{Point, Runs};
+    use guideway_spline::Point;
 
     use super::*;
     use crate::NoProgress;
+    use crate::test_layouts::{numbers, straight_ways};
 
     /// Method `cpu`, which counts how often it prepares a scene.
     #[derive(Default)]
@@ -227,23 +227,12 @@ mod tests {
 
     /// A picture of 12,000 short paths at random places of a square of this side.
     fn scattered(side_m: f64, color: Rgba) -> Picture {
-        let mut layout = Layout::default();
-        let mut state = 1_u64;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 40) as f64 / f64::from(1 << 24)
-        };
-        for _ in 0..12_000 {
+        let mut next = numbers();
+        let ends = (0..12_000).map(|_| {
             let from = Point::new(next(), next()) * side_m;
-            let mut runs = Runs::default();
-            runs.push_line(from, from + Point::new(next() - 0.5, next() - 0.5));
-            layout.paths.push(&NewPath {
-                runs: &runs,
-                ..NewPath::default()
-            });
-        }
+            [from, from + Point::new(next() - 0.5, next() - 0.5)]
+        });
+        let layout = straight_ways(ends);
         let options = SceneOptions {
             color: Some(color),
             ..SceneOptions::default()

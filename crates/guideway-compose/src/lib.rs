@@ -58,6 +58,8 @@ mod pdf;
 mod picture;
 mod png_writer;
 mod render;
+#[cfg(test)]
+mod test_layouts;
 mod text;
 mod vector;
 mod vector_file;

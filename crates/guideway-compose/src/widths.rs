@@ -126,11 +126,10 @@ impl Cells {
 
 #[cfg(test)]
 mod tests {
-    use guideway_layout::NewPath;
     use guideway_scene::FrameSize;
-    use guideway_spline::Runs;
 
     use super::*;
+    use crate::test_layouts::{numbers, straight_ways};
 
     fn radius_px(layout: &Layout, is_all_shown: bool, width: u32, height: u32) -> f64 {
         let size = FrameSize::new(width, height).unwrap();
@@ -154,44 +153,24 @@ mod tests {
 
     /// 40 parallel ways, this far apart in pixels, each there and back.
     fn ways(apart_px: f64) -> Layout {
-        let mut layout = Layout::default();
-        layout.provenance.format = "LIF".to_owned();
-        for i in 0..40 {
+        let ends = (0..40).flat_map(|i| {
             let y = f64::from(i) * apart_px / 50.0;
             let ends = [Point::new(-5.0, y), Point::new(5.0, y)];
-            for [from, to] in [ends, [ends[1], ends[0]]] {
-                let mut runs = Runs::default();
-                runs.push_line(from, to);
-                layout.paths.push(&NewPath {
-                    runs: &runs,
-                    ..NewPath::default()
-                });
-            }
-        }
+            [ends, [ends[1], ends[0]]]
+        });
+        let mut layout = straight_ways(ends);
+        layout.provenance.format = "LIF".to_owned();
         layout
     }
 
     /// This many short ways at random places of a square of 10 m.
     fn scattered(count: u32) -> Layout {
-        let mut layout = Layout::default();
-        let mut state = 1_u64;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 40) as f64 / f64::from(1 << 24) * 10.0 - 5.0
-        };
-        for _ in 0..count {
+        let mut unit = numbers();
+        let mut next = || unit() * 10.0 - 5.0;
+        straight_ways((0..count).map(|_| {
             let from = Point::new(next(), next());
-            let to = from + Point::new(next(), next()) * 0.02;
-            let mut runs = Runs::default();
-            runs.push_line(from, to);
-            layout.paths.push(&NewPath {
-                runs: &runs,
-                ..NewPath::default()
-            });
-        }
-        layout
+            [from, from + Point::new(next(), next()) * 0.02]
+        }))
     }
 
     #[test]
