@@ -6,7 +6,7 @@ use std::sync::Arc;
 use arrow_array::{Array, ArrayRef, Float64Array, ListArray, StructArray};
 use arrow_buffer::{NullBuffer, OffsetBuffer};
 use arrow_schema::{DataType, Field, Fields};
-use guideway::layout::Layout;
+use guideway::layout::{GeoOrigin, Layout};
 use guideway::spline::Point;
 use pyo3::prelude::*;
 
@@ -38,16 +38,8 @@ pub(crate) fn features(
         let remedy = "Omit on_earth for meters of the layout";
         return Err(bad_argument("the layout has no place on earth", remedy));
     }
-    let map = |p: Point<f64>| match origin {
-        None => p,
-        Some(origin) => {
-            let per_degree_m = origin.meters_per_degree();
-            Point::new(
-                origin.longitude_deg + p.x / per_degree_m.x,
-                origin.latitude_deg + p.y / per_degree_m.y,
-            )
-        }
-    };
+    let to_degrees = origin.map(GeoOrigin::to_degrees);
+    let map = |p: Point<f64>| to_degrees.as_ref().map_or(p, |to_degrees| to_degrees(p));
     let (mut columns, extension, geometry) = match kind {
         "edges" => (
             tables::edge_columns(layout, None),

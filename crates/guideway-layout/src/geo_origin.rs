@@ -30,6 +30,14 @@ impl GeoOrigin {
         Point::new(across_m * cos, meridian_m) * 1_f64.to_radians()
     }
 
+    /// Returns the map of positions in meters about this origin to longitude and latitude, in
+    /// degrees. The longitude exceeds 180 beyond the antimeridian, so that lines stay connected.
+    pub fn to_degrees(self) -> impl Fn(Point<f64>) -> Point<f64> {
+        let center = Point::new(self.longitude_deg, self.latitude_deg);
+        let scale = self.meters_per_degree();
+        move |at_m| center + Point::new(at_m.x / scale.x, at_m.y / scale.y)
+    }
+
     /// Returns the map of meters about this origin to meters about another one, which keeps every
     /// place on earth. Of the two ways around the earth it takes the shorter one.
     pub fn to_origin(self, other: Self) -> Affine {

@@ -42,16 +42,13 @@ pub(crate) fn units_per_m(latitude_deg: f64) -> f64 {
 }
 
 fn map_to_earth(layout: &mut Layout, origin: GeoOrigin) {
-    let per_degree_m = origin.meters_per_degree();
+    let to_degrees = origin.to_degrees();
     let side = TileGrid::EARTH.side();
     let map = |p: Point<f64>| {
-        let longitude_deg = origin.longitude_deg + p.x / per_degree_m.x;
-        let latitude_deg = origin.latitude_deg + p.y / per_degree_m.y;
-        let latitude = latitude_deg
-            .clamp(-MAX_LATITUDE_DEG, MAX_LATITUDE_DEG)
-            .to_radians();
-        let north = latitude.tan().asinh() / (2.0 * PI);
-        Point::new(longitude_deg / 360.0 * side, north * side)
+        let degrees = to_degrees(p);
+        let latitude = degrees.y.clamp(-MAX_LATITUDE_DEG, MAX_LATITUDE_DEG);
+        let north = latitude.to_radians().tan().asinh() / (2.0 * PI);
+        Point::new(degrees.x / 360.0 * side, north * side)
     };
     let paths = &mut layout.paths;
     let mut mapped = Geometry::default();
