@@ -2,5 +2,6 @@
 //! packages of a release.
 
 pub mod dist;
+pub mod files;
 pub mod module_graph;
 pub mod style;

@@ -61,7 +61,7 @@ fn main() -> ExitCode {
         ("fuzz", rest) => fuzz(rest),
         ("sanitize", []) => match SANITIZED_HOST {
             Some(host) => sanitize(host),
-            None => Err(anyhow!("the sanitizer is set up for Linux on x86-64 only")),
+            None => Err(anyhow!(NO_SANITIZER)),
         },
         ("soak", rest) => soak(rest),
         ("dist", []) => pack::run(),
@@ -144,7 +144,7 @@ fn checks() -> Result<()> {
     match SANITIZED_HOST {
         Some(host) => sanitize(host),
         None => {
-            println!("SKIPPED: the sanitizer is set up for Linux on x86-64 only");
+            println!("SKIPPED: {NO_SANITIZER}");
             Ok(())
         }
     }
@@ -265,6 +265,7 @@ fn fuzz(args: &[String]) -> Result<()> {
     step::command(built.join("fuzz")).args(args).run()
 }
 
+const NO_SANITIZER: &str = "the sanitizer is set up for Linux on x86-64 only";
 /// This host, if the sanitizer is set up for it.
 const SANITIZED_HOST: Option<&str> = if cfg!(all(
     target_os = "linux",

@@ -34,24 +34,10 @@ fn runs(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok()
 }
 
-/// All files below a folder, by their names relative to it.
+/// Names of all files below a folder.
 fn files_below(folder: &Path) -> Vec<String> {
-    let mut names = Vec::new();
-    let mut next = vec![folder.to_owned()];
-    while let Some(inner) = next.pop() {
-        for entry in fs::read_dir(inner).unwrap() {
-            let path = entry.unwrap().path();
-            match path.is_dir() {
-                true => next.push(path),
-                false => {
-                    let name = path.strip_prefix(folder).unwrap();
-                    names.push(name.to_string_lossy().into_owned());
-                }
-            }
-        }
-    }
-    names.sort();
-    names
+    let files = xtask::files::files_below(folder).unwrap();
+    files.into_iter().map(|(name, _)| name).collect()
 }
 
 #[test]

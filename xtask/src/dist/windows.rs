@@ -9,6 +9,7 @@ use anyhow::{Context, Result};
 
 use super::package::run;
 use super::{Binaries, Compression};
+use crate::files::files_below;
 
 /// The target of the programs.
 pub const WINDOWS: &str = "x86_64-pc-windows-gnu";
@@ -50,8 +51,8 @@ pub fn stage_windows(
     let readme = readme.replace("@VERSION@", version);
     fs::write(folder.join("README.txt"), readme)?;
     fs::write(folder.join("THIRD-PARTY.txt"), notices)?;
-    for name in names_below(folder)? {
-        let file = File::options().append(true).open(folder.join(name))?;
+    for (_, path) in files_below(folder)? {
+        let file = File::options().append(true).open(path)?;
         file.set_modified(SystemTime::UNIX_EPOCH + TIME)?;
     }
     Ok(())
@@ -66,8 +67,8 @@ pub fn zip(parent: &Path, name: &str, folder: &Path, compression: Compression) -
     if file.exists() {
         fs::remove_file(&file)?;
     }
-    let names = names_below(&parent.join(name))?;
-    let names = names.iter().map(|inner| format!("{name}/{inner}"));
+    let files = files_below(&parent.join(name))?;
+    let names = files.iter().map(|(inner, _)| format!("{name}/{inner}"));
     run(Command::new("zip")
         .args(["-q", "-X"])
         .arg(match compression {
@@ -96,7 +97,8 @@ pub fn installer(
     let file = folder.join(format!("{name}-setup.exe"));
     let stage = parent.join(name);
     let removals = parent.join(format!("{name}.nsh"));
-    fs::write(&removals, removal(&names_below(&stage)?))?;
+    let names = files_below(&stage)?.into_iter().map(|(name, _)| name);
+    fs::write(&removals, removal(&names.collect::<Vec<_>>()))?;
     let define = |name: &str, value: &Path| format!("-D{name}={}", value.display());
     run(Command::new("makensis")
         .args(["-V2", "-WX", "-INPUTCHARSET", "UTF8"])
@@ -134,28 +136,6 @@ fn removal(names: &[String]) -> String {
         lines += &format!("RMDir \"$INSTDIR\\{}\"\n", windows(folder));
     }
     lines
-}
-
-/// The files below a folder, sorted, with `/` between the parts of a name.
-fn names_below(folder: &Path) -> Result<Vec<String>> {
-    let mut names = Vec::new();
-    let mut next = vec![folder.to_owned()];
-    while let Some(inner) = next.pop() {
-        for entry in fs::read_dir(&inner).with_context(|| inner.display().to_string())? {
-            let path = entry?.path();
-            if path.is_dir() {
-                next.push(path);
-                continue;
-            }
-            let name = path.strip_prefix(folder)?.components();
-            let name: Vec<_> = name
-                .map(|part| part.as_os_str().to_string_lossy())
-                .collect();
-            names.push(name.join("/"));
-        }
-    }
-    names.sort();
-    Ok(names)
 }
 
 #[cfg(test)]

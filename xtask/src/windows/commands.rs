@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use xtask::files::files_below;
 
 use super::build::FOLDER;
 use super::wine::Wine;
@@ -151,20 +152,9 @@ fn without_times(mut bytes: Vec<u8>) -> Vec<u8> {
 
 /// The files below a folder by name.
 fn read_below(folder: &Path) -> Result<BTreeMap<String, Vec<u8>>> {
-    let mut files = BTreeMap::new();
-    let mut next = vec![folder.to_owned()];
-    while let Some(inner) = next.pop() {
-        for entry in fs::read_dir(inner)? {
-            let path = entry?.path();
-            if path.is_dir() {
-                next.push(path);
-            } else {
-                let name = path.strip_prefix(folder)?.to_string_lossy().into_owned();
-                files.insert(name, without_times(fs::read(path)?));
-            }
-        }
-    }
-    Ok(files)
+    let files = files_below(folder)?.into_iter();
+    let read = files.map(|(name, path)| Ok((name, without_times(fs::read(path)?))));
+    read.collect()
 }
 
 /// Names the files that one side lacks, and those with other bytes.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Child;
 
 use anyhow::{Context, Result, bail};
+use xtask::files::files_below;
 
 use super::build::FOLDER;
 use super::packages::Packages;
@@ -158,28 +159,6 @@ fn programs_folder(wine: &Wine) -> Result<PathBuf> {
         }
     }
     bail!("the installer has made no folder")
-}
-
-/// The files below a folder: their names relative to it, and their paths.
-fn files_below(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
-    let mut files = Vec::new();
-    let mut next = vec![folder.to_owned()];
-    while let Some(inner) = next.pop() {
-        for entry in fs::read_dir(inner)? {
-            let entry = entry?;
-            let path = entry.path();
-            // Links of a prefix lead to folders of this computer's user.
-            match entry.file_type()?.is_dir() {
-                true => next.push(path),
-                false => {
-                    let name = path.strip_prefix(folder)?.to_string_lossy();
-                    files.push((name.into_owned(), path));
-                }
-            }
-        }
-    }
-    files.sort();
-    Ok(files)
 }
 
 fn expect(code: Option<i32>, wanted: i32, who: &str) -> Result<()> {
