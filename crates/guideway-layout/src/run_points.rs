@@ -60,7 +60,9 @@ impl<'a> RunPoints<'a> {
     }
 
     /// The cubic segments in order, four control points each.
-    pub fn segments(self) -> impl ExactSizeIterator<Item = [Point<f64>; 4]> + Clone + 'a {
+    pub fn segments(
+        self,
+    ) -> impl DoubleEndedIterator<Item = [Point<f64>; 4]> + ExactSizeIterator + Clone + 'a {
         let count = self.len().saturating_sub(3);
         (0..count).map(move |i| {
             [

@@ -32,19 +32,12 @@ impl Headings<'_> {
     fn travel(&self, arc: Arc, end: End) -> Option<Point<f64>> {
         let path = self.layout.paths.get(arc.path as usize);
         let is_first = (end == End::Start) != arc.is_backward;
-        let mut segments = path.runs().flat_map(|run| run.segments());
+        let segments = path.runs().flat_map(|run| run.segments());
+        let mut curves = segments.map(|segment| uniform::to_bezier(&segment));
         let along = if is_first {
-            segments.find_map(|segment| start_direction(&uniform::to_bezier(&segment)))
+            curves.find_map(|curve| start_direction(&curve))
         } else {
-            let last = path.runs().last()?;
-            let mut segments = last.segments();
-            (0..segments.len())
-                .rev()
-                .find_map(|row| {
-                    let segment = segments.clone().nth(row)?;
-                    end_direction(&uniform::to_bezier(&segment))
-                })
-                .or_else(|| segments.find_map(|s| end_direction(&uniform::to_bezier(&s))))
+            curves.rev().find_map(|curve| end_direction(&curve))
         }?;
         Some(if arc.is_backward { -along } else { along })
     }

@@ -81,8 +81,8 @@ fn records_one_rounding_after_a_geometry_count() {
         return;
     };
     let layout = read_real(&cases.join("o21_tie.xodr"));
-    let run = layout.paths.get(0).runs().last().unwrap();
-    let segment = run.segments().last().unwrap();
+    let run = layout.paths.get(0).runs().next_back().unwrap();
+    let segment = run.segments().next_back().unwrap();
     // The arc of radius 10 is 13 from its center on the right.
     let center = Point::new(2.406_657_433_403_102, 10.0);
     assert!((uniform::point(&segment, 1.0).distance(center) - 13.0).abs() < 1e-3);

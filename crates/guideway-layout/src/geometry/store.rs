@@ -148,7 +148,10 @@ impl Geometry {
     /// # Panics
     /// When `path` is not below [`Self::path_count`].
     #[inline]
-    pub fn runs(&self, path: usize) -> impl ExactSizeIterator<Item = RunPoints<'_>> + Clone {
+    pub fn runs(
+        &self,
+        path: usize,
+    ) -> impl DoubleEndedIterator<Item = RunPoints<'_>> + ExactSizeIterator + Clone {
         self.runs_of(&(path..path + 1)).map(|run| self.run(run))
     }
 

@@ -227,7 +227,9 @@ impl<'a> PathRef<'a> {
     }
 
     /// Control runs, in meters.
-    pub fn runs(self) -> impl ExactSizeIterator<Item = RunPoints<'a>> + Clone {
+    pub fn runs(
+        self,
+    ) -> impl DoubleEndedIterator<Item = RunPoints<'a>> + ExactSizeIterator + Clone {
         self.paths.geometry.runs(self.row)
     }
 
@@ -270,9 +272,9 @@ impl<'a> PathRef<'a> {
     /// Start and end of the curve; `None` if it has no segments.
     pub fn ends(self) -> Option<(Point<f64>, Point<f64>)> {
         let first = self.runs().next()?;
-        let last = self.runs().last()?;
+        let last = self.runs().next_back()?;
         let start = uniform::start(&first.segments().next()?);
-        let end = uniform::end(&last.segments().last()?);
+        let end = uniform::end(&last.segments().next_back()?);
         Some((start, end))
     }
 
