@@ -10,6 +10,7 @@ use super::shape::{Mark, Shape, plane};
 use super::text::TextDecoder;
 use crate::ReadError;
 use crate::builder::Builder;
+use crate::pair_reader::Pair;
 
 /// Returns `true` if entities of a kind are notes.
 pub(super) fn is_note(kind: &str) -> bool {
@@ -22,7 +23,7 @@ pub(super) fn mark(kind: &str, record: &Record<'_>, texts: &TextDecoder) -> Opti
         "POINT" => (String::new(), record.vector(10)?),
         "MTEXT" => {
             let parts = record.all(3).chain(record.all(1));
-            let text: String = parts.map(|pair| texts.decode(pair.text())).collect();
+            let text = texts.decode_parts(parts.map(Pair::text));
             (plain_mtext(&text), record.vector(10)?)
         }
         _ => {
@@ -103,8 +104,9 @@ fn add(
     Ok(())
 }
 
-/// A TEXT without its control codes: `%%d` is a degree sign, `%%u` underlines.
+/// A TEXT without its control codes: `%%d` is a degree sign, `%%u` underlines. It has one line.
 fn plain_text(text: &str) -> String {
+    let text = text.replace(|c: char| c.is_control(), " ");
     let mut parts = text.split("%%");
     let mut plain = parts.next().unwrap_or_default().to_owned();
     for part in parts {

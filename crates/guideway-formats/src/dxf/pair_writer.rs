@@ -24,17 +24,20 @@ impl<'w, W: Write> PairWriter<'w, W> {
         self.next_handle = handle;
     }
 
-    /// Writes a text, with control characters escaped as `\U+0000`.
+    /// Writes a text, with control characters escaped as `\U+0000`, and carets as `^ `.
     pub(super) fn text(&mut self, code: u32, text: &str) -> io::Result<()> {
         writeln!(self.out, "{code}")?;
         let mut rest = text;
-        while let Some(at) = rest.find(|c: char| c.is_control() || c == '\\') {
+        while let Some(at) = rest.find(|c: char| c.is_control() || matches!(c, '\\' | '^')) {
             let (plain, special) = rest.split_at(at);
             let c = special.chars().next().unwrap_or_default();
-            // A backslash is only special before `U+`, so `C:\temp` stays readable.
-            match c == '\\' && !special.starts_with(r"\U+") {
-                true => write!(self.out, "{plain}{c}")?,
-                false => write!(self.out, r"{plain}\U+{:04X}", u32::from(c))?,
+            // A backslash is only special before `U+` or `M+`, so `C:\temp` stays readable.
+            match c {
+                '^' => write!(self.out, "{plain}^ ")?,
+                '\\' if !special.starts_with(r"\U+") && !special.starts_with(r"\M+") => {
+                    write!(self.out, "{plain}{c}")?;
+                }
+                _ => write!(self.out, r"{plain}\U+{:04X}", u32::from(c))?,
             }
             rest = &special[c.len_utf8()..];
         }

@@ -58,17 +58,22 @@ impl TextDecoder {
         }
     }
 
-    /// Decodes a text value, with the escapes `\U+00E4` (Unicode) and `\M+5BBF5` (a code page and
-    /// two bytes in it).
+    /// Decodes a text value, with the escapes `\U+00E4` (Unicode), `\M+5BBF5` (a code page and two
+    /// bytes in it), `^I` (tab), `^J` (line feed), `^M` (carriage return) and `^ ` (a caret).
     pub(super) fn decode(&self, bytes: &[u8]) -> String {
         let text = match str::from_utf8(bytes) {
             Ok(text) if self.prefers_utf8 || text.is_ascii() => text.to_owned(),
             _ => self.page.decode(bytes),
         };
-        if text.contains("\\U+") || text.contains("\\M+") {
+        if text.contains("\\U+") || text.contains("\\M+") || text.contains('^') {
             return unescape(&text);
         }
         text
+    }
+
+    /// Decodes a text that is split over several values, even within a letter or an escape.
+    pub(super) fn decode_parts<'p>(&self, parts: impl Iterator<Item = &'p [u8]>) -> String {
+        self.decode(&parts.collect::<Vec<_>>().concat())
     }
 }
 
@@ -122,21 +127,33 @@ fn code_page(name: &[u8]) -> Option<CodePage> {
 fn unescape(text: &str) -> String {
     let mut decoded = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some(at) = rest.find('\\') {
+    while let Some(at) = rest.find(['\\', '^']) {
         decoded.push_str(&rest[..at]);
         rest = &rest[at..];
-        match unicode_escape(rest).or_else(|| page_escape(rest)) {
-            Some((letters, length)) => {
-                decoded.push_str(&letters);
-                rest = &rest[length..];
-            }
-            None => {
-                decoded.push('\\');
-                rest = &rest[1..];
-            }
-        }
+        let escape = unicode_escape(rest).or_else(|| page_escape(rest));
+        let (letters, length) = escape
+            .or_else(|| caret_escape(rest))
+            .unwrap_or_else(|| (rest[..1].to_owned(), 1));
+        decoded.push_str(&letters);
+        rest = &rest[length..];
     }
     decoded + rest
+}
+
+/// Returns the character of an escape such as `^I` at the start of a text, and the bytes that it
+/// takes.
+///
+/// The DXF reference has an escape for each control character. Those that no text has are read as
+/// two letters, because many programs write a caret in a name as it is: `A^B`.
+fn caret_escape(text: &str) -> Option<(String, usize)> {
+    let letter = match text.get(..2)? {
+        "^I" => "\t",
+        "^J" => "\n",
+        "^M" => "\r",
+        "^ " => "^",
+        _ => return None,
+    };
+    Some((letter.to_owned(), 2))
 }
 
 /// Returns the letter of an escape such as `\U+00E4` at the start of a text, or of two that are a
@@ -220,5 +237,21 @@ mod tests {
         assert_eq!(decode(br"\M+5BBF5\M+5BCDC"), "货架");
         assert_eq!(decode(br"a\M+192CA\b"), r"a通\b");
         assert_eq!(decode(br"\M+9BBF5\M+5BB\M+5\"), r"\M+9BBF5\M+5BB\M+5\");
+    }
+
+    #[test]
+    fn decodes_carets_once() {
+        let decode = |bytes: &[u8]| TextDecoder::default().decode(bytes);
+        assert_eq!(decode(b"Gang^I1^J^M"), "Gang\t1\n\r");
+        assert_eq!(decode(b"^ I ^  "), "^I ^ ");
+        // No escapes of texts.
+        assert_eq!(decode(b"A^B ^i^^I^"), "A^B ^i^\t^");
+        assert_eq!(decode("^ä".as_bytes()), "^ä");
+        // What an escape stands for begins no other escape.
+        assert_eq!(decode(br"\U+005EI ^ \U+0041"), "^I ^A");
+        let parts = ["a^", "Ib\\U+00", "E4\u{e4}"];
+        let bytes = parts.map(str::as_bytes).into_iter();
+        let parts = bytes.chain([&b"\xC3"[..], b"\xA4"]);
+        assert_eq!(TextDecoder::default().decode_parts(parts), "a\tbäää");
     }
 }

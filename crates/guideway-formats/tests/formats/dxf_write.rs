@@ -87,10 +87,15 @@ fn keeps_nurbs_as_they_were_written() {
 #[test]
 fn preserves_any_identifier() {
     let long = "ä".repeat(600);
+    // Some are split within what looks like an escape.
+    let carets = "^ \\U+0041^I".repeat(60);
     let names = [
         "A --- B",
         "\\U+00E4",
         "C:\\temp\n1",
+        "\\M+5BBF5",
+        "^I ^ ^",
+        &carets,
         &long,
         "",
         "漢 \u{1F69A}",

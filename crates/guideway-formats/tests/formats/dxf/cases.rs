@@ -347,6 +347,23 @@ fn multilines_and_areas_are_outlines() {
 }
 
 #[test]
+fn carets_escape_control_characters_in_names_and_texts() {
+    let tables = "0 TABLE\n2 LAYER\n0 LAYER\n2 A^ B\n70 0\n62 1\n0 ENDTAB";
+    let block = "0 BLOCK\n2 R^IK\n10 0\n20 0\n0 LINE\n5 A\n8 A^ B\n10 0\n20 0\n11 1\n21 0\n\
+                 0 ENDBLK";
+    let split = "0 MTEXT\n5 M\n10 0\n20 9\n3 Halle^\n1 J7 \\S1^ 2;\n";
+    let entities = "0 INSERT\n5 I\n2 r\\U+0009k\n66 1\n10 0\n20 0\n\
+                    0 ATTRIB\n5 T\n1 A^ 1\n10 0\n20 0\n0 SEQEND\n\
+                    0 TEXT\n5 N\n1 Tor^I1^MA^B\n10 5\n20 5\n";
+    let layout = drawing(tables, block, &format!("{entities}{split}"));
+    let layer = layout.paths.value(0, "layer").unwrap().to_string();
+    assert_eq!(layer, "A^B");
+    let notes: Vec<_> = layout.notes.iter().map(|n| (&*n.text, &*n.block)).collect();
+    let expected = [("A^1", "R\tK"), ("Tor 1 A^B", ""), ("Halle 7 1/2", "")];
+    assert_eq!(notes, expected);
+}
+
+#[test]
 fn public_cases_are_read() {
     let Some(folder) = shared("cases/dxf") else {
         return;
