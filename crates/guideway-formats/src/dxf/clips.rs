@@ -8,10 +8,13 @@
 //! A boundary is a polygon in the drawing as it was when the block was clipped, however the
 //! reference moved since. Two matrices lead from there to the block. An inverted boundary hides
 //! its inside. It is in an XRECORD; the SPATIAL_FILTER has then a polygon for programs that know no
-//! inverted ones, of which AutoCAD leaves corners out. Source: the DXF reference, and the
-//! experiments of ezdxf's author ("Exploring the transformation behavior of SPATIAL_FILTER").
+//! inverted ones, of which AutoCAD leaves corners out. Files were seen in which the two polygons are
+//! exchanged: the inner one is hidden. Source: the DXF reference, and the experiments of ezdxf's
+//! author ("Exploring the transformation behavior of SPATIAL_FILTER", `ClippingPath`).
 
 use std::collections::HashMap;
+
+use guideway_spline::Bounds;
 
 use super::affine3::{Affine3, Vector3};
 use super::records::{Record, RecordReader};
@@ -135,6 +138,8 @@ impl<'b> Filter<'b> {
     /// The boundary; that of the corners `hidden`, where they are stated.
     fn boundary(self, hidden: Option<Vec<Vector3>>) -> Boundary {
         let is_inverted = hidden.is_some();
+        // Some files state the outer polygon as the hidden one, around the inner one.
+        let hidden = hidden.filter(|hidden| !is_around(hidden, &self.corners));
         let mut corners = hidden.unwrap_or(self.corners);
         if let [min, max] = corners[..] {
             corners = vec![
@@ -162,6 +167,16 @@ fn corners(record: &Record<'_>) -> Vec<Vector3> {
         Some(_) => Vec::new(),
         None => corners,
     }
+}
+
+/// Returns `true` if the box of the corners `outer` is larger than that of the corners `inner`, and
+/// has it inside.
+fn is_around(outer: &[Vector3], inner: &[Vector3]) -> bool {
+    let bounds = |corners: &[Vector3]| Bounds::of_points(corners.iter().map(|corner| corner.xy()));
+    let Some((outer, inner)) = bounds(outer).zip(bounds(inner)) else {
+        return false;
+    };
+    outer != inner && outer.contains(inner.min) && outer.contains(inner.max)
 }
 
 /// Keeps the pairs of an XRECORD that are the corners of an inverted boundary. Returns `true` if it

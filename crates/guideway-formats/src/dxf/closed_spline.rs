@@ -7,6 +7,9 @@
 //! | closed | none | closed and uniform, unless the ends are one point |
 //! | closed | n + p + 1 | as the knots state; open ends are reported |
 //! | none | n + 1, for degree 3 and above | closed, one period; reported |
+//!
+//! The third row is the reading of ezdxf and of Open CASCADE, which build the curve of whole knots
+//! without looking at the flag.
 
 use guideway_layout::Code;
 use guideway_spline::{Runs, knots};

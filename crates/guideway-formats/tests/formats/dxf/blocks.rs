@@ -256,6 +256,13 @@ fn inverted_boundaries_hide_their_inside() {
         assert!(layout.notes.iter().any(|note| note.text == "Dock"));
         assert!(!codes(&layout).contains(&Code::ApproximateShape));
     }
+    // The outer polygon, from (-5, -5) to (15, 5) in the block, in place of the inner one.
+    let inner = "102 {ACAD_XDICTIONARY\n360 X\n102 }\n70 2\n10 7\n20 4\n10 11\n20 6\n";
+    let outer = record("10 0\n20 0\n10 20\n20 10\n");
+    let layout = clipped_with(insert, inner, &outer);
+    assert_near(ends(&layout, "B1/A [1]").1, 7.0, 5.0);
+    assert_near(ends(&layout, "B1/A [2]").0, 11.0, 5.0);
+    assert_eq!(layout.paths.len(), 3);
     // Another dictionary of a boundary inverts nothing.
     let plain = record("").replace("INVERTEDCLIP", "OTHER");
     let rectangle = "102 {ACAD_XDICTIONARY\n360 X\n102 }\n10 7\n20 4\n10 11\n20 6\n";
