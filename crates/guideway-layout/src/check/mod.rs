@@ -6,6 +6,7 @@
 //! | `endpoints` | paths that miss their nodes, nodes without paths, paths between levels |
 //! | `shape` | gaps, kinks, tight bends, paths without length; by `cubic`, `turns_in_place` |
 //! | `pairs` | paths on the same curve; by `same_curve` and `curve`, and by `differences` |
+//! | `lengths` | stated lengths that differ from those of the curves |
 //! | `units` | sizes, speeds and angles that suggest a wrong unit |
 //!
 //! `options` holds the thresholds, `scale` derives tolerances from the size of the layout,
@@ -17,6 +18,7 @@ mod differences;
 mod element;
 mod endpoints;
 mod ids;
+mod lengths;
 mod options;
 mod pairs;
 mod same_curve;
@@ -75,6 +77,7 @@ pub fn check_watched(layout: &Layout, options: &CheckOptions, done: &dyn Fn(f64)
     let scale = Scale::of(layout);
     let tolerances = Tolerances::of(&scale, options);
     units::check(layout, options, &scale, &mut found);
+    lengths::check(layout, &tolerances, &mut found);
     ids::check(layout, &mut found);
     done(UNITS_AND_IDS);
     endpoints::check(layout, &tolerances, &mut found);

@@ -5,18 +5,25 @@ use guideway_spline::{Bounds, uniform};
 use super::options::CheckOptions;
 use crate::{Code, Layout, PathRef};
 
+/// Fastest plausible speed: no road vehicle exceeds it.
+pub(super) const LARGEST_SPEED_M_PER_S: f64 = 100.0;
+
 /// A path smaller than this is a point, whatever the layout.
 const LEAST_SIZE_M: f64 = 1e-12;
 
 /// From this extent on, a layout of long paths is in doubt: no hall reaches it.
 const LARGE_EXTENT_M: f64 = 3e3;
-/// Longest typical distance of the nodes of a network. A hall in millimeters that is read as meters
-/// has nodes every few kilometers.
-const LARGE_NODE_DISTANCE_M: f64 = 1e3;
-/// Longest typical size of paths without nodes: a motorway has no junction for kilometers.
-const LARGE_PATH_M: f64 = 1e4;
+/// Longest typical distance of the nodes of a network, by whether its unit is stated. A hall in
+/// centimeters that is read as meters has nodes every few hundred meters, one in millimeters every
+/// few kilometers. Measured: 22 m in the public networks of known unit.
+const LARGE_NODE_DISTANCE_M: [f64; 2] = [250.0, 100.0];
+/// Longest typical size of paths without nodes, by whether the unit is stated: a motorway has no
+/// junction for kilometers. Measured: 152 m in public maps of roads that do not state it.
+const LARGE_PATH_M: [f64; 2] = [1e4, 200.0];
 /// Longest typical time to drive along a path at its greatest permitted speed.
-const LARGE_TIME_S: f64 = 300.0;
+const LARGE_TIME_S: f64 = 120.0;
+/// Up to this typical time, long paths are those of fast vehicles.
+const ORDINARY_TIME_S: f64 = 60.0;
 
 /// Up to this extent, a layout of short paths is in doubt: it is smaller than a vehicle.
 const SMALL_EXTENT_M: f64 = 1.0;
@@ -114,12 +121,16 @@ impl Scale {
 
     /// The median size of the paths, if it is too large for them.
     pub(super) fn long_m(&self) -> Option<f64> {
-        let large_m = if self.has_nodes {
-            LARGE_NODE_DISTANCE_M
-        } else {
-            LARGE_PATH_M
+        let by_unit = match self.has_nodes {
+            true => LARGE_NODE_DISTANCE_M,
+            false => LARGE_PATH_M,
         };
-        self.median_size_m.filter(|median_m| *median_m > large_m)
+        let large_m = by_unit[usize::from(self.is_assumed)];
+        let is_fast = self.median_time.is_some_and(|median| {
+            median.time_s <= ORDINARY_TIME_S && median.speed_m_per_s <= LARGEST_SPEED_M_PER_S
+        });
+        self.median_size_m
+            .filter(|median_m| !is_fast && *median_m > large_m)
     }
 
     /// The median time to drive along a path, if it is too long for one.

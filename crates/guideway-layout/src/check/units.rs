@@ -4,11 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use super::element::{element_name, element_place};
 use super::options::CheckOptions;
-use super::scale::{Axis, DriveTime, Scale, SizeDoubt};
+use super::scale::{Axis, DriveTime, LARGEST_SPEED_M_PER_S, Scale, SizeDoubt};
 use crate::{Attribute, Code, Diagnostics, Layout, Member, Place, Quantity, TypeEntries, Value};
 
-/// Fastest plausible speed: no road vehicle exceeds it.
-const LARGEST_SPEED_M_PER_S: f64 = 100.0;
 /// Fastest plausible turn on the spot, in radians per second: a full turn per second. In degrees,
 /// slow turns have larger numbers.
 const LARGEST_ROTATION_RAD_PER_S: f64 = TAU;
@@ -44,7 +42,8 @@ pub(super) fn check(
 const SMALL_REMEDY: &str =
     "Check the unit of the file: meters read as millimeters make a hall as small as a coin";
 const LARGE_REMEDY: &str = "Check the unit of the file: millimeters read as meters make a hall as \
-                            large as a country; if it is right, look for stray paths";
+                            large as a country, centimeters as large as a town; if it is right, \
+                            look for stray paths";
 const FAR_REMEDY: &str = "Check the unit of the file; if it is right, look for stray paths";
 
 fn push(found: &mut Diagnostics, message: impl FnOnce() -> String, remedy: &str) {

@@ -1,7 +1,7 @@
 //! Units that cannot be right are reported first and once; tolerances follow the size of a layout.
 
 use guideway_layout::{
-    CheckOptions, Code, Diagnostics, GeoOrigin, NewPath, Place, Quantity, Value, check,
+    CheckOptions, Code, Diagnostics, GeoOrigin, NewPath, Place, Quantity, Severity, Value, check,
 };
 
 use crate::findings::{codes, found, only};
@@ -49,15 +49,73 @@ fn nodes_kilometers_apart_suggest_millimeters() {
 
 #[test]
 fn drives_of_many_minutes_suggest_another_unit() {
-    let centimeters = || row(9, 500.0);
+    let centimeters = || row(30, 200.0);
     assert!(found(&centimeters()).is_empty());
     let (_, message) = only(&found(&with_speed(centimeters(), 1.5)), Code::Implausible);
     assert!(
-        message.ends_with("half of its paths take more than 6 minutes at 1.5 m/s"),
+        message.ends_with("half of its paths take more than 2 minutes at 1.5 m/s"),
         "{message}"
     );
     // A road.
     assert!(found(&with_speed(centimeters(), 14.0)).is_empty());
+}
+
+#[test]
+fn nodes_hundreds_of_meters_apart_suggest_centimeters() {
+    let doubts = |sketch: &Sketch| found(sketch).count(Code::Implausible);
+    assert_eq!(doubts(&row(9, 450.0)), 1);
+    assert_eq!(doubts(&with_speed(row(9, 450.0), 1.0)), 1);
+    // A road, and speeds in centimeters per second, of which the speeds are the second finding.
+    assert_eq!(doubts(&with_speed(row(9, 450.0), 14.0)), 0);
+    assert_eq!(doubts(&with_speed(row(9, 450.0), 150.0)), 2);
+    let assumed = |mut sketch: Sketch| {
+        let diagnostics = &mut sketch.layout.diagnostics;
+        let message = || "the file does not state its unit".to_owned();
+        diagnostics.push(Code::AssumedUnit, Place::default, message, "State it");
+        doubts(&sketch)
+    };
+    assert_eq!(assumed(row(36, 99.0)), 0);
+    assert_eq!(assumed(row(36, 101.0)), 1);
+    let lines = |length_m: f64| {
+        let mut sketch = Sketch::default();
+        for i in 0..18 {
+            let y = 200.0 * f64::from(i);
+            sketch.free_path("", &line_runs(p(0.0, y), p(length_m, y)));
+        }
+        sketch
+    };
+    assert_eq!(doubts(&lines(220.0)), 0);
+    assert_eq!(
+        [190.0, 220.0].map(|length_m| assumed(lines(length_m))),
+        [0, 1]
+    );
+}
+
+#[test]
+fn stated_lengths_are_compared_with_the_curves() {
+    let stated = |lengths_m: &[f64]| {
+        let mut sketch = row(1 + lengths_m.len(), 4.0);
+        for (row, length_m) in lengths_m.iter().enumerate() {
+            let attributes = &mut sketch.layout.paths.attributes;
+            attributes.set_quantity(row, "length", *length_m, Quantity::Length);
+        }
+        let found = found(&sketch);
+        assert!(found.iter().all(|d| d.code == Code::Implausible));
+        let mut found = found.iter().map(|d| (d.severity, d.message.clone()));
+        let first = found.next();
+        assert!(found.next().is_none());
+        first
+    };
+    assert_eq!(stated(&[4.0, 2.5, 6.5]), None);
+    let (severity, message) = stated(&[4.0, 4000.0, 0.0]).unwrap();
+    assert_eq!(severity, Severity::Warning);
+    let expected =
+        "path \"e2\" states 4000 m; its curve is 4.000 m long, and another length differs";
+    assert_eq!(message, expected);
+    assert_eq!(stated(&[0.004]).unwrap().0, Severity::Warning);
+    // Not to scale, or not known.
+    assert_eq!(stated(&[4.0, 12.0]).unwrap().0, Severity::Info);
+    assert_eq!(stated(&[0.0]).unwrap().0, Severity::Info);
 }
 
 #[test]
@@ -160,7 +218,7 @@ fn impossible_speeds_and_angles_are_reported_once_per_column() {
     for row in 0..4 {
         paths
             .attributes
-            .set_quantity(row, "length", 1e6, Quantity::Length);
+            .set_quantity(row, "length", 10.0, Quantity::Length);
         let angle = 6.25;
         paths
             .attributes
