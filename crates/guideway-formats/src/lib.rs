@@ -7,7 +7,7 @@
 //! | stage | input | output | modules |
 //! |---|---|---|---|
 //! | open | path or bytes | bytes, format | `read`, `input`, `unpack`, `encoding`, `format`, `sniff` |
-//! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml`, `yaml_json` |
+//! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves and units of a format | uniform cubic runs, SI units | `spline`, `trajectory`, `ellipse`, `wgs84`, `speed_unit` |
 //! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
@@ -79,7 +79,6 @@ mod xml;
 mod xml_builder;
 mod xml_text;
 mod yaml;
-mod yaml_json;
 
 pub use error::{LIMIT_OPTIONS, Problem, ReadError};
 pub use format::Format;

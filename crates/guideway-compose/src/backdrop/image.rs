@@ -41,7 +41,7 @@ impl Image {
         }
     }
 
-    /// Reads a PNG, JPEG or PGM image of at most 67 million pixels.
+    /// Reads a PNG, JPEG, PBM, PGM or PPM image of at most 67 million pixels.
     ///
     /// # Errors
     /// When the file cannot be read, is damaged, or has too many pixels.

@@ -1,87 +1,144 @@
-//! Reads PGM, the gray images of Netpbm: P2 (numbers as text) and P5 (bytes), up to 16 bits.
+//! Reads the images of Netpbm: bits (P1, P4), gray (P2, P5) and colors (P3, P6), up to 16 bits.
 //!
-//! A header of magic, width, height and greatest value, separated by white space, with comments
-//! from `#` to the end of a line; then the values, row by row from the top. Source: the man page
-//! `pgm(5)` of Netpbm.
+//! | kind | values of a pixel | as text | as bytes |
+//! |---|---|---|---|
+//! | PBM | 1 is black, 0 is white | P1, spaces optional | P4, 8 per byte, rows padded |
+//! | PGM | from black to the greatest value | P2 | P5 |
+//! | PPM | red, green, blue | P3 | P6 |
+//!
+//! A header of magic, width, height and greatest value (which PBM lacks), separated by white space,
+//! with comments from `#` to the end of a line; then the values, row by row from the top. Source:
+//! the man pages `pbm(5)`, `pgm(5)` and `ppm(5)` of Netpbm.
 
 use guideway_layout::Place;
 
 use super::image::{Raster, check_pixels};
 use crate::Problem;
 
-/// Greatest value that the format allows for its brightest pixel.
+/// Greatest value that the formats allow for their brightest pixel.
 const MAX_MAXVAL: u64 = 65_535;
 
-/// Returns `true` if bytes begin as PGM.
-pub(super) fn is_pgm(bytes: &[u8]) -> bool {
-    matches!(bytes, [b'P', b'2' | b'5', next, ..] if next.is_ascii_whitespace() || *next == b'#')
+/// Returns `true` if bytes begin as an image of Netpbm.
+pub(super) fn is_netpbm(bytes: &[u8]) -> bool {
+    matches!(bytes, [b'P', b'1'..=b'6', next, ..] if next.is_ascii_whitespace() || *next == b'#')
 }
 
-/// Reads the first image of a file for which [`is_pgm`] holds.
+/// Reads the first image of a file for which [`is_netpbm`] holds.
 ///
 /// # Errors
 /// When the header is damaged, the size exceeds the limit, or values are missing or too great.
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, Problem> {
-    let is_text = bytes.starts_with(b"P2");
+    let kind = bytes.get(1).copied().unwrap_or_default();
     let mut header = Numbers { bytes, at: 2 };
     let width = header.next("width")?;
     let height = header.next("height")?;
-    let maxval = header.next("greatest value")?;
+    let (channels, maxval) = match kind {
+        b'1' | b'4' => (1, 1),
+        b'3' | b'6' => (3, header.next("greatest value")?),
+        _ => (1, header.next("greatest value")?),
+    };
     if !(1..=MAX_MAXVAL).contains(&maxval) {
         let detail = format!("{maxval} is not from 1 to {MAX_MAXVAL}");
         return Err(damaged("greatest value", detail));
     }
     let count = check_pixels(width, height)?;
-    let values = match is_text {
-        true => text_values(header, count, maxval)?,
-        false => byte_values(header, count, maxval)?,
+    let values = Values {
+        count,
+        channels,
+        maxval,
+    };
+    let pixels = match kind {
+        b'1' => text_bits(header, count)?,
+        b'2' | b'3' => values.of_text(header)?,
+        b'4' => byte_bits(header, width as usize, count)?,
+        _ => values.of_bytes(header)?,
     };
     Ok(Raster {
         width: width as usize,
         height: height as usize,
-        pixels: values,
+        pixels,
         has_alpha: false,
         png: None,
     })
 }
 
-/// The pixels of P2.
-fn text_values(
-    mut numbers: Numbers<'_>,
+/// The pixels of P1: digits, with or without spaces between them.
+fn text_bits(mut numbers: Numbers<'_>, count: usize) -> Result<Vec<[u8; 4]>, Problem> {
+    numbers.require(count, count)?;
+    (0..count).map(|_| Ok(bit(numbers.next_bit()?))).collect()
+}
+
+/// The pixels of P4: the highest bit of a byte is the leftmost one.
+fn byte_bits(header: Numbers<'_>, width: usize, count: usize) -> Result<Vec<[u8; 4]>, Problem> {
+    let row_bytes = width.div_ceil(8);
+    let values = header.after_space();
+    values.require(row_bytes * (count / width), count)?;
+    let rows = values.rest().chunks_exact(row_bytes).take(count / width);
+    let row = |bytes: &[u8]| -> Vec<[u8; 4]> {
+        let is_black = |i: usize| bytes[i / 8] << (i % 8) & 0x80 != 0;
+        (0..width).map(|i| bit(is_black(i))).collect()
+    };
+    Ok(rows.flat_map(row).collect())
+}
+
+/// An opaque black or white.
+fn bit(is_black: bool) -> [u8; 4] {
+    let level = if is_black { 0 } else { 255 };
+    [level, level, level, 255]
+}
+
+/// The values of gray or colored pixels.
+struct Values {
+    /// Number of pixels.
     count: usize,
+    /// Values per pixel: one gray, or red, green and blue.
+    channels: usize,
     maxval: u64,
-) -> Result<Vec<[u8; 4]>, Problem> {
-    // A value takes at least a digit and a space: checked before memory is allocated.
-    numbers.require(2 * count - 1, count)?;
-    let pixel = |_| {
-        let value = numbers.next("pixel")?;
-        gray(value, maxval)
-    };
-    (0..count).map(pixel).collect()
 }
 
-/// The pixels of P5: one byte per value, or two, the greater first, if values exceed a byte.
-fn byte_values(header: Numbers<'_>, count: usize, maxval: u64) -> Result<Vec<[u8; 4]>, Problem> {
-    let size = if maxval < 256 { 1 } else { 2 };
-    // One character of white space separates the header from the values.
-    let values = Numbers {
-        at: header.at + 1,
-        ..header
-    };
-    values.require(count * size, count)?;
-    let values = values.rest().chunks_exact(size).take(count);
-    let number = |bytes: &[u8]| bytes.iter().fold(0, |sum, &b| sum << 8 | u64::from(b));
-    values.map(|bytes| gray(number(bytes), maxval)).collect()
-}
-
-/// An opaque gray of 8 bits.
-fn gray(value: u64, maxval: u64) -> Result<[u8; 4], Problem> {
-    if value > maxval {
-        let detail = format!("{value} exceeds the greatest value of the header, {maxval}");
-        return Err(damaged("pixel", detail));
+impl Values {
+    /// The pixels of P2 and P3.
+    fn of_text(&self, mut numbers: Numbers<'_>) -> Result<Vec<[u8; 4]>, Problem> {
+        // A value takes at least a digit and a space: checked before memory is allocated.
+        numbers.require(2 * self.count * self.channels - 1, self.count)?;
+        let pixel = |_| self.pixel(|_| numbers.next("pixel"));
+        (0..self.count).map(pixel).collect()
     }
-    let level = ((value * 255 + maxval / 2) / maxval) as u8;
-    Ok([level, level, level, 255])
+
+    /// The pixels of P5 and P6: one byte per value, or two, the greater first, if values exceed a
+    /// byte.
+    fn of_bytes(&self, header: Numbers<'_>) -> Result<Vec<[u8; 4]>, Problem> {
+        let size = if self.maxval < 256 { 1 } else { 2 };
+        let values = header.after_space();
+        let pixel_bytes = size * self.channels;
+        values.require(self.count * pixel_bytes, self.count)?;
+        let number = |bytes: &[u8]| bytes.iter().fold(0, |sum, &b| sum << 8 | u64::from(b));
+        let pixel = |bytes: &[u8]| self.pixel(|i| Ok(number(&bytes[i * size..][..size])));
+        let pixels = values.rest().chunks_exact(pixel_bytes).take(self.count);
+        pixels.map(pixel).collect()
+    }
+
+    /// An opaque color of 8 bits per channel from the values by their index.
+    fn pixel(
+        &self,
+        mut value: impl FnMut(usize) -> Result<u64, Problem>,
+    ) -> Result<[u8; 4], Problem> {
+        let mut levels = [0; 3];
+        for (i, level) in levels.iter_mut().take(self.channels).enumerate() {
+            let value = value(i)?;
+            if value > self.maxval {
+                let maxval = self.maxval;
+                let detail = format!("{value} exceeds the greatest value of the header, {maxval}");
+                return Err(damaged("pixel", detail));
+            }
+            *level = ((value * 255 + self.maxval / 2) / self.maxval) as u8;
+        }
+        let [r, g, b] = match self.channels {
+            1 => [levels[0]; 3],
+            _ => levels,
+        };
+        Ok([r, g, b, 255])
+    }
 }
 
 fn damaged(place: &str, detail: String) -> Problem {
@@ -102,6 +159,12 @@ struct Numbers<'b> {
 impl<'b> Numbers<'b> {
     fn rest(&self) -> &'b [u8] {
         self.bytes.get(self.at..).unwrap_or_default()
+    }
+
+    /// The values after the header, which one character of white space ends.
+    fn after_space(self) -> Self {
+        let at = self.at + 1;
+        Self { at, ..self }
     }
 
     /// Fails if fewer than `needed` bytes are left, which `count` pixels take.
@@ -139,6 +202,27 @@ impl<'b> Numbers<'b> {
         self.at += length;
         let add = |sum: u64, b: &u8| sum.saturating_mul(10).saturating_add(u64::from(b - b'0'));
         Ok(number.iter().fold(0, add))
+    }
+
+    /// The next digit, 0 or 1.
+    fn next_bit(&mut self) -> Result<bool, Problem> {
+        self.skip_space();
+        let next = self.rest().first().copied();
+        self.at += 1;
+        match next {
+            Some(digit @ (b'0' | b'1')) => Ok(digit == b'1'),
+            Some(other) => {
+                let (other, at) = (other.escape_ascii(), self.at - 1);
+                Err(damaged(
+                    "pixel",
+                    format!("`{other}` at byte {at} is neither 0 nor 1"),
+                ))
+            }
+            None => Err(Problem::Truncated {
+                at: self.bytes.len() as u64,
+                detail: "no pixel follows".into(),
+            }),
+        }
     }
 
     fn skip_space(&mut self) {
@@ -179,6 +263,29 @@ mod tests {
     }
 
     #[test]
+    fn bits_are_black_and_rows_of_bytes_are_padded() {
+        let expected = [0, 255, 0, 255, 255, 0];
+        assert_eq!(levels(b"P1\n# a plan\n3 2\n1 0 1\n0 0 1\n"), expected);
+        assert_eq!(levels(b"P1 3 2 10 #c\n1001"), expected);
+        assert_eq!(levels(b"P4\n3 2\n\xBF\x20"), expected);
+        let wide = read(b"P4 9 1 \x00\x80").unwrap();
+        assert_eq!(wide.pixels.iter().filter(|pixel| pixel[0] == 0).count(), 1);
+        assert_eq!(wide.pixels[8], [0, 0, 0, 255]);
+    }
+
+    #[test]
+    fn colors_have_three_values() {
+        let expected = [[255, 0, 51, 255], [102, 255, 0, 255]];
+        let text = read(b"P3 2 1 5\n5 0 1\n2 5 0\n").unwrap();
+        let bytes = read(b"P6\n2 1\n255\n\xFF\x00\x33\x66\xFF\x00").unwrap();
+        let wide = read(b"P6 2 1 256\n\x01\x00\x00\x00\x00\x33\x00\x66\x01\x00\x00\x00").unwrap();
+        assert_eq!((text.width, text.height), (2, 1));
+        for raster in [text, bytes, wide] {
+            assert_eq!(raster.pixels, expected);
+        }
+    }
+
+    #[test]
     fn damaged_files_say_where_and_why() {
         for (bytes, said) in [
             (&b"P5 "[..], "no width follows"),
@@ -213,6 +320,14 @@ mod tests {
             (b"P2 8000 8000 5 1 2 3", "at least 127999999 bytes"),
             (b"P2 3 2 5 10 2 3 4 5 ", "10 exceeds"),
             (b"P2 3 2 5 1 2 3 4 5          ", "no pixel follows"),
+            (b"P1 3 2 10120", "`2` at byte 10 is neither 0 nor 1"),
+            (b"P1 3 2 10       ", "no pixel follows"),
+            (b"P1 3 2 1", "6 bytes, and 2 follow"),
+            (b"P4 9 2 \x00\x00\x00", "18 pixels take at least 4 bytes"),
+            (b"P4 0 2 ", "0 x 2 pixels"),
+            (b"P3 1 1 5 1 2", "at least 5 bytes, and 4 follow"),
+            (b"P6 1 1 5 \x00\x01\x06", "6 exceeds"),
+            (b"P6 1 1 300 \x00\x01", "at least 6 bytes, and 2 follow"),
         ] {
             let error = read(bytes).err().unwrap();
             let error = format!("{error}. {}", error.remedy());

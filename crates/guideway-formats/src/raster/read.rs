@@ -1,24 +1,24 @@
-//! Reads an image file; its first bytes decide between PNG, JPEG and PGM.
+//! Reads an image file; its first bytes decide between PNG, JPEG and Netpbm.
 
 use std::path::Path;
 
 use guideway_layout::Place;
 
 use super::image::Raster;
-use super::{jpeg, pgm, png};
+use super::{jpeg, netpbm, png};
 use crate::read::{quote_or_hex, read_file_bytes};
 use crate::{Problem, ReadError, ReadOptions};
 
 /// Largest image file, in bytes. Derived: 8 bytes for each pixel of the largest image, the most
-/// that PNG, JPEG and PGM take, and as much again for texts in it.
+/// that PNG, JPEG and the binary kinds of Netpbm take, and as much again for texts in it.
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// Returns `true` if bytes begin as an image of a format that [`read_file`] reads.
 pub fn is_raster(bytes: &[u8]) -> bool {
-    png::is_png(bytes) || jpeg::is_jpeg(bytes) || pgm::is_pgm(bytes)
+    png::is_png(bytes) || jpeg::is_jpeg(bytes) || netpbm::is_netpbm(bytes)
 }
 
-/// Reads a PNG, JPEG or PGM image.
+/// Reads a PNG, JPEG or Netpbm (PBM, PGM, PPM) image.
 ///
 /// # Errors
 /// When the file cannot be read, has another format, is damaged, or exceeds a limit: 1 GiB,
@@ -28,7 +28,7 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Raster, ReadE
     read_bytes(bytes, &path.to_string_lossy())
 }
 
-/// Reads a PNG, JPEG or PGM image from memory. Errors name it `name`.
+/// Reads a PNG, JPEG or Netpbm (PBM, PGM, PPM) image from memory. Errors name it `name`.
 ///
 /// # Errors
 /// As [`read_file`].
@@ -43,8 +43,8 @@ fn read(bytes: Vec<u8>) -> Result<Raster, Problem> {
     if jpeg::is_jpeg(&bytes) {
         return jpeg::read(&bytes);
     }
-    if pgm::is_pgm(&bytes) {
-        return pgm::read(&bytes);
+    if netpbm::is_netpbm(&bytes) {
+        return netpbm::read(&bytes);
     }
     if bytes.is_empty() {
         return Err(Problem::Empty);
@@ -55,7 +55,7 @@ fn read(bytes: Vec<u8>) -> Result<Raster, Problem> {
             "an image that begins with {}",
             quote_or_hex(&bytes[..bytes.len().min(8)])
         ),
-        remedy: "Save the image as PNG, JPEG or PGM (P2 or P5)".into(),
+        remedy: "Save the image as PNG, JPEG, PBM, PGM or PPM".into(),
     })
 }
 
@@ -67,13 +67,16 @@ mod tests {
     fn other_formats_are_named_by_their_first_bytes() {
         for (bytes, said) in [
             (&b"BM\x00\x00"[..], "42 4D 00 00"),
-            (b"P6 2 2 255\n", "\"P6 2 2 2\""),
-            (b"P1 1 1 1", "P1 1"),
+            (b"P7\nWIDTH 2\n", "\"P7"),
+            (b"P5x 1 1 1", "P5x 1"),
         ] {
             assert!(!is_raster(bytes));
             let error = read(bytes.to_vec()).err().unwrap();
             let text = format!("{error}. {}", error.remedy());
-            assert!(text.contains(said) && text.contains("P2 or P5"), "{text}");
+            assert!(
+                text.contains(said) && text.contains("PBM, PGM or PPM"),
+                "{text}"
+            );
         }
         assert!(matches!(read(Vec::new()), Err(Problem::Empty)));
     }

@@ -117,8 +117,10 @@ impl<'y> Fields<'y> {
             let remedy = "Give one map per file".into();
             return Err(invalid(at("map file", line), detail, remedy));
         }
+        // An object that another one merges may have any name.
+        let is_odd = |key: &str, value: YamlNode<'_>| !FIELDS.contains(&key) && !value.is_merged();
         let mut keys = root.entries();
-        if let Some((key, value)) = keys.find(|(key, _)| !FIELDS.contains(key)) {
+        if let Some((key, value)) = keys.find(|(key, value)| is_odd(key, *value)) {
             let detail = "this is no field of a map".into();
             let remedy = format!("Correct or remove it; the fields are {list}");
             return Err(invalid(at(key, value.line()), detail, remedy));

@@ -3,7 +3,7 @@
 use guideway_layout::Value;
 use serde_json::Value as Json;
 
-use crate::yaml::YamlNode;
+use super::node::YamlNode;
 
 /// Deepest nesting of a converted value; aliases can nest a short file without end.
 const MAX_DEPTH: usize = 64;

@@ -1,20 +1,27 @@
 //! Parses untrusted YAML to a tree with the line of every value.
 //!
 //! The tree shares aliased values instead of copying them. The number of values that all aliases
-//! refer to is bounded, because nested aliases let a few lines represent billions of values.
+//! refer to is bounded, because nested aliases let a few lines represent billions of values. That
+//! bounds merged objects too: each is an alias, or stated once.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
 
-use guideway_layout::{TextPosition, Value};
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError};
 
+use super::merge::merge;
+use super::node::{Content, NodeData, YamlNode};
 use crate::source::Source;
 use crate::text::{ElementCounter, line_column, printable};
 use crate::{Problem, ReadError};
 
 /// Values that the aliases of any file may refer to, in addition to one per byte.
 const BASE_ALIASED: u64 = 1 << 16;
+
+/// The key whose value is merged into its object, as YAML 1.1 defines it.
+const MERGE_KEY: &str = "<<";
+const NO_OBJECT: &str = "`<<` merges objects or a list of them, and this is none";
 
 /// A parsed file: all values, children before parents.
 pub(crate) struct Yaml<'t> {
@@ -23,20 +30,6 @@ pub(crate) struct Yaml<'t> {
     pub(crate) duplicate_keys: Vec<(String, u32)>,
     /// First line of a second document, which is not read.
     pub(crate) next_document: Option<u32>,
-}
-
-/// A stored value.
-struct NodeData<'t> {
-    line: u32,
-    /// Number of values in it, including itself and the values of its aliases.
-    size: u64,
-    content: Content<'t>,
-}
-
-enum Content<'t> {
-    Scalar { text: Cow<'t, str>, is_plain: bool },
-    List(Vec<u32>),
-    Map(Vec<(Cow<'t, str>, u32)>),
 }
 
 impl<'t> Yaml<'t> {
@@ -87,7 +80,11 @@ struct OpenCollection<'t> {
     node: NodeData<'t>,
     anchor: usize,
     /// The key of the next value of an object.
-    key: Option<Cow<'t, str>>,
+    key: Option<Rc<str>>,
+    /// True if that key is `<<`: the object takes the entries of the value.
+    is_merge_key: bool,
+    /// The values to merge, in file order.
+    merges: Vec<u32>,
 }
 
 /// Builds the tree from parser events.
@@ -108,6 +105,7 @@ impl<'t> TreeBuilder<'t, '_> {
             line,
             size: 1,
             content,
+            is_merged: false,
         };
         match event {
             Event::Scalar(text, style, anchor, _) => self.scalar(text, style, anchor, line),
@@ -120,7 +118,11 @@ impl<'t> TreeBuilder<'t, '_> {
             Event::SequenceEnd | Event::MappingEnd => {
                 self.counter.leave();
                 match self.open.pop() {
-                    Some(open) => self.close(open.node, open.anchor),
+                    Some(mut open) => {
+                        merge(&mut self.yaml.values, &mut open.node, &open.merges)
+                            .map_err(|line| syntax(line, NO_OBJECT))?;
+                        self.close(open.node, open.anchor)
+                    }
                     None => Ok(()),
                 }
             }
@@ -159,21 +161,20 @@ impl<'t> TreeBuilder<'t, '_> {
             && open.key.is_none()
         {
             self.counter.count()?;
-            open.key = Some(text);
+            open.is_merge_key = style == ScalarStyle::Plain && text == MERGE_KEY;
+            open.key = Some(Rc::from(&*text));
             return Ok(());
         }
         let is_plain = style == ScalarStyle::Plain;
         let content = Content::Scalar { text, is_plain };
-        let size = 1;
         self.counter.count()?;
-        self.close(
-            NodeData {
-                line,
-                size,
-                content,
-            },
-            anchor,
-        )
+        let node = NodeData {
+            line,
+            size: 1,
+            content,
+            is_merged: false,
+        };
+        self.close(node, anchor)
     }
 
     fn enter(&mut self, node: NodeData<'t>, anchor: usize) -> Result<(), Problem> {
@@ -187,8 +188,13 @@ impl<'t> TreeBuilder<'t, '_> {
             },
             other => other,
         })?;
-        let key = None;
-        self.open.push(OpenCollection { node, anchor, key });
+        self.open.push(OpenCollection {
+            node,
+            anchor,
+            key: None,
+            is_merge_key: false,
+            merges: Vec::new(),
+        });
         Ok(())
     }
 
@@ -220,6 +226,7 @@ impl<'t> TreeBuilder<'t, '_> {
         };
         open.node.size = open.node.size.saturating_add(size);
         match (&mut open.node.content, open.key.take()) {
+            (Content::Map(_), Some(_)) if open.is_merge_key => open.merges.push(value),
             (Content::Map(entries), Some(key)) => entries.push((key, value)),
             (Content::List(items), _) => items.push(value),
             _ => {
@@ -231,145 +238,6 @@ impl<'t> TreeBuilder<'t, '_> {
         }
         Ok(())
     }
-}
-
-/// A reference to a value of a file.
-#[derive(Clone, Copy)]
-pub(crate) struct YamlNode<'y> {
-    values: &'y [NodeData<'y>],
-    node: usize,
-}
-
-impl<'y> YamlNode<'y> {
-    fn content(self) -> &'y Content<'y> {
-        &self.values[self.node].content
-    }
-
-    fn at(self, node: u32) -> Self {
-        Self {
-            node: node as usize,
-            ..self
-        }
-    }
-
-    /// The first line of the value, from 1.
-    pub(crate) fn line(self) -> u32 {
-        self.values[self.node].line
-    }
-
-    /// The place of the value in its file, to the line.
-    pub(crate) fn position(self) -> TextPosition {
-        TextPosition::line(self.line())
-    }
-
-    pub(crate) fn is_object(self) -> bool {
-        matches!(self.content(), Content::Map(_))
-    }
-
-    /// The kind of the value, for messages.
-    pub(crate) fn kind(self) -> &'static str {
-        match self.content() {
-            Content::Scalar { .. } if self.value().is_none() => "nothing",
-            Content::Scalar { .. } => "a single value",
-            Content::List(_) => "a list",
-            Content::Map(_) => "an object",
-        }
-    }
-
-    /// The items of a list; empty for any other value.
-    pub(crate) fn items(self) -> impl ExactSizeIterator<Item = YamlNode<'y>> + Clone {
-        let items: &[u32] = match self.content() {
-            Content::List(items) => items,
-            _ => &[],
-        };
-        items.iter().map(move |&item| self.at(item))
-    }
-
-    pub(crate) fn is_list(self) -> bool {
-        matches!(self.content(), Content::List(_))
-    }
-
-    pub(crate) fn is_map(self) -> bool {
-        matches!(self.content(), Content::Map(_))
-    }
-
-    /// The keys and values of an object; empty for any other value.
-    pub(crate) fn entries(self) -> impl DoubleEndedIterator<Item = (&'y str, YamlNode<'y>)> {
-        let entries: &[(Cow<'y, str>, u32)] = match self.content() {
-            Content::Map(entries) => entries,
-            _ => &[],
-        };
-        let item = move |entry: &'y (Cow<'y, str>, u32)| (&*entry.0, self.at(entry.1));
-        entries.iter().map(item)
-    }
-
-    /// The value of a key of an object.
-    pub(crate) fn get(self, key: &str) -> Option<YamlNode<'y>> {
-        let mut entries = self.entries().rev();
-        entries.find(|(k, _)| *k == key).map(|(_, value)| value)
-    }
-
-    /// An item of a list by its index.
-    pub(crate) fn item(self, index: usize) -> Option<YamlNode<'y>> {
-        self.items().nth(index)
-    }
-
-    /// The text of a scalar of any type.
-    pub(crate) fn text(self) -> Option<&'y str> {
-        match self.content() {
-            Content::Scalar { text, .. } => Some(text),
-            _ => None,
-        }
-    }
-
-    /// A scalar, typed by the core schema of YAML 1.2; `None` for null, lists and objects.
-    pub(crate) fn value(self) -> Option<Value<'y>> {
-        let Content::Scalar { text, is_plain } = self.content() else {
-            return None;
-        };
-        let text: &str = text;
-        if !is_plain {
-            return Some(Value::Text(text));
-        }
-        if let Ok(whole) = text.parse() {
-            return Some(Value::Int(whole));
-        }
-        match text {
-            "" | "~" | "null" | "Null" | "NULL" => None,
-            "true" | "True" | "TRUE" => Some(Value::Bool(true)),
-            "false" | "False" | "FALSE" => Some(Value::Bool(false)),
-            ".nan" | ".NaN" | ".NAN" => Some(Value::Float(f64::NAN)),
-            _ => match text.trim_start_matches(['+', '-']) {
-                ".inf" | ".Inf" | ".INF" => Some(Value::Float(f64::INFINITY)),
-                // Too long for `Int`; a float would round it.
-                digits if is_whole(digits) => Some(Value::Text(text)),
-                // Excludes spellings that only Rust accepts, such as `nan`.
-                digits if digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
-                    let number = text.parse().map(Value::Float);
-                    Some(number.unwrap_or(Value::Text(text)))
-                }
-                _ => Some(Value::Text(text)),
-            },
-        }
-    }
-
-    /// A scalar as a number.
-    pub(crate) fn number(self) -> Option<f64> {
-        match self.value()? {
-            Value::Int(whole) => Some(whole as f64),
-            Value::Float(number) => Some(number),
-            Value::Text(digits) if is_whole(digits) && self.is_plain() => digits.parse().ok(),
-            _ => None,
-        }
-    }
-
-    fn is_plain(self) -> bool {
-        matches!(self.content(), Content::Scalar { is_plain: true, .. })
-    }
-}
-
-fn is_whole(digits: &str) -> bool {
-    !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 fn syntax(line: u32, message: &str) -> Problem {

@@ -1,4 +1,5 @@
-//! Tests of the reader of Open-RMF site files (`*.site.json`).
+//! Tests of the readers of Open-RMF site files (`*.site.json`), and of merge keys in building
+//! files.
 
 use guideway_layout::{Code, Direction, Layout, Value};
 
@@ -118,4 +119,24 @@ fn odd_sites_are_no_panic() {
     ] {
         assert_eq!(read(text).paths.len(), 0, "{text}");
     }
+}
+
+#[test]
+fn merge_keys_of_building_files_are_resolved() {
+    let layout = read(
+        "usual: &usual\n  bidirectional: [4, true]\n  speed_limit: [3, 2.5]\n\
+         base: &base\n  measurements: [[0, 1, {distance: [3, 10]}]]\n\
+         levels:\n  L1:\n    <<: *base\n    \
+         vertices: [[0, 0, 0, a], [100, 0, 0, b], [50, 20, 0, c]]\n    \
+         lanes:\n    - [0, 1, {<<: *usual}]\n    \
+         - [1, 2, {<<: *usual, bidirectional: [4, false]}]\n",
+    );
+    assert_eq!(ends(&layout, "L1.lanes[0]").1, Point::new(10.0, 0.0));
+    let paths = &layout.paths;
+    let directions = [0, 1].map(|row| paths.get(row).direction());
+    assert_eq!(directions, [Direction::Both, Direction::Forward]);
+    for row in 0..2 {
+        assert_eq!(paths.value(row, "maxSpeed"), Some(Value::Float(2.5)));
+    }
+    assert!(paths.value(0, "<<").is_none());
 }

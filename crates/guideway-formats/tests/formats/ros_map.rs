@@ -53,6 +53,30 @@ fn rows_go_top_down_and_the_lower_left_corner_is_the_origin() {
 }
 
 #[test]
+fn bitmaps_and_colors_are_maps_too() {
+    let cells = |image: &[u8]| read(MAP.as_bytes(), image).unwrap().cells;
+    let expected = [OCCUPIED, 0, 0, 0, 0, OCCUPIED];
+    assert_eq!(cells(b"P1\n3 2\n1 0 0\n0 0 1\n"), expected);
+    assert_eq!(cells(b"P4\n3 2\n\x80\x20"), expected);
+    let rows = "0 0 0 9 9 9 9 9 9 9 9 9 9 9 9 0 0 0";
+    assert_eq!(cells(format!("P3 3 2 9 {rows}").as_bytes()), expected);
+    let bytes = rows.split(' ').map(|digit| digit.parse::<u8>().unwrap());
+    let ppm = b"P6\n3 2\n9\n".iter().copied().chain(bytes);
+    assert_eq!(cells(&ppm.collect::<Vec<_>>()), expected);
+}
+
+#[test]
+fn merged_objects_complete_a_map() {
+    let grid = read(MAP.as_bytes(), IMAGE).unwrap();
+    let base = "usual: &usual {negate: 1, occupied_thresh: 0.65, free_thresh: 0.196}\n";
+    let own = "image: hall.pgm\nresolution: 0.5\norigin: [10.0, 20.0, 0]\nnegate: 0\n";
+    let merged = read(format!("{base}{own}<<: *usual\n").as_bytes(), IMAGE).unwrap();
+    assert_eq!(merged.cells, grid.cells);
+    assert!(error(&format!("{base}{MAP}")).contains("this is no field"));
+    assert!(error(&format!("{MAP}<<: 3\n")).contains("`<<` merges objects"));
+}
+
+#[test]
 fn yaw_turns_counter_clockwise_about_the_origin() {
     let turned = with("origin", "origin: [10.0, 20.0, 1.5707963267948966]");
     let grid = read(turned.as_bytes(), IMAGE).unwrap();
@@ -229,7 +253,7 @@ fn images_that_are_damaged_or_too_large_are_named() {
             &IMAGE[..IMAGE.len() - 1],
             "6 pixels take at least 6 bytes, and 5 follow",
         ),
-        (b"P6 1 1 255\n\x00\x00\x00", "P2 or P5"),
+        (b"P7\nWIDTH 3\n", "PBM, PGM or PPM"),
         (b"GIF89a", "\"GIF89a\""),
         (b"", "the file is empty"),
         (b"P5 100000 100000 255\n", "limits of 1 to 67108864 pixels"),

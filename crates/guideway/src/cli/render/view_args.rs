@@ -34,7 +34,7 @@ pub(super) struct ViewArgs {
     #[arg(long, value_name = "NAME")]
     pub(super) level: Option<String>,
     /// File to draw below the paths: a layout or drawing in a pale color; a `map.yaml` of ROS; or
-    /// a PNG, JPEG or PGM image whose lower left corner is at `offset`, such as
+    /// a PNG, JPEG, PBM, PGM or PPM image whose lower left corner is at `offset`, such as
     /// `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", value_parser = Input::parser())]
     pub(super) floor_plan: Option<Input>,

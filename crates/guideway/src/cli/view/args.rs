@@ -17,8 +17,8 @@ pub(crate) struct Args {
     /// Layout files; the content decides the format
     #[arg(value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
-    /// File to show below the layouts: a layout, a drawing, a `map.yaml` of ROS, or a PNG, JPEG
-    /// or PGM image with its scale, such as `hall.png@px-per-m=20,offset=-3,-2`
+    /// File to show below the layouts: a layout, a drawing, a `map.yaml` of ROS, or a PNG, JPEG,
+    /// PBM, PGM or PPM image with its scale, such as `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", conflicts_with = "measure")]
     pub(super) floor_plan: Option<String>,
     /// Render method, from `guideway methods`; `auto` selects `gpu` with graphics hardware, else
