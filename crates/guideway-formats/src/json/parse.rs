@@ -107,9 +107,12 @@ fn reword(message: &str, rest: &str) -> String {
                 "found the quote {quote}; JSON wants double quotes around names and texts"
             );
         }
-        if COMMENTS.iter().any(|mark| rest.starts_with(mark)) {
-            return "found a comment; JSON has none".into();
-        }
+    }
+    let is_between = message.starts_with("expected `");
+    if (is_between || matches!(message, "key must be a string" | "expected value"))
+        && COMMENTS.iter().any(|mark| rest.starts_with(mark))
+    {
+        return "found a comment; JSON has none".into();
     }
     let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
     match (message, &rest[..end.unwrap_or(rest.len())]) {

@@ -217,6 +217,33 @@ pub(super) fn read_lane_offset<'d, 't>(
     read_polynomials(reader, records, "s", 0.0)
 }
 
+/// The order of elements along a road.
+#[derive(Default)]
+pub(super) struct Order {
+    /// Start of the last element.
+    last_m: Option<f64>,
+}
+
+impl Order {
+    /// Reports an element that begins, by the attribute `key`, before the one ahead of it.
+    pub(super) fn check<'d, 't>(
+        &mut self,
+        reader: &mut DocumentReader<'_, 'd, 't>,
+        node: Node<'d, 't>,
+        (key, start_m): (&str, f64),
+    ) {
+        let last_m = self.last_m.replace(start_m);
+        if let Some(last_m) = last_m.filter(|last_m| start_m < *last_m) {
+            let message = || {
+                let tag = node.tag_name().name();
+                format!("<{tag}> begins at {key} = {start_m}, after one that begins at {last_m}")
+            };
+            let remedy = "The order of the starts counts; sort the elements by it";
+            reader.report(Code::Implausible, node, message, remedy);
+        }
+    }
+}
+
 /// Reads polynomials from elements with a start attribute `key` and the coefficients a to d. Skips
 /// incomplete ones.
 fn read_polynomials<'d, 't>(
@@ -226,11 +253,13 @@ fn read_polynomials<'d, 't>(
     start_m: f64,
 ) -> Piecewise {
     let mut pieces: Vec<(f64, Cubic)> = Vec::new();
+    let mut order = Order::default();
     for record in records {
         let offset = reader.number(record, key);
         let [a, b, c, d] = ["a", "b", "c", "d"].map(|key| reader.number(record, key));
         if let (Some(offset), Some(a), Some(b), Some(c), Some(d)) = (offset, a, b, c, d) {
             let (start, cubic) = (start_m + offset, Cubic { a, b, c, d });
+            order.check(reader, record, (key, offset));
             let before = pieces.last();
             if before.is_some_and(|(at, other)| *at == start && *other != cubic) {
                 let message = || format!("a second record begins at {key} = {offset}");
@@ -254,6 +283,10 @@ pub(super) fn read_lane_sections<'d, 't>(
     let lanes = child(road, "lanes").into_iter();
     let sections = lanes.flat_map(|lanes| children(lanes, "laneSection"));
     let mut sections: Vec<Node<'d, 't>> = sections.collect();
+    let mut order = Order::default();
+    for section in &sections {
+        order.check(reader, *section, ("s", start_m(*section)));
+    }
     sections.sort_by(|a, b| start_m(*a).total_cmp(&start_m(*b)));
     reader.set_sections(&sections);
     let read = sections.into_iter();

@@ -4,7 +4,7 @@ use guideway_layout::{Code, Layout, Place};
 use roxmltree::Node;
 
 use super::geometry::Geometry;
-use super::lanes::{read_lane_offset, read_lane_sections};
+use super::lanes::{Order, read_lane_offset, read_lane_sections};
 use super::plan_view::read_geometry;
 use super::reader::DocumentReader;
 use super::section::{Road, SectionMapper};
@@ -85,9 +85,13 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
         self.reader.base.builder.check_text(id)?;
         let (mut geometries, mut is_complete) = (Vec::new(), true);
         let plan = children(node, "planView");
+        let mut order = Order::default();
         for geometry in plan.flat_map(|plan| children(plan, "geometry")) {
             let read = read_geometry(&mut self.reader, geometry);
             is_complete &= read.is_some();
+            if let Some(read) = &read {
+                order.check(&mut self.reader, geometry, ("s", read.start_m));
+            }
             geometries.extend(read);
         }
         geometries.sort_by(|a: &Geometry, b| a.start_m.total_cmp(&b.start_m));

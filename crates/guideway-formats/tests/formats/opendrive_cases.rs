@@ -353,3 +353,38 @@ fn records_and_sides_that_contradict_each_other_are_found() {
     assert_end(&layout, "7.0.-1", [5.0, -1.5]);
     assert_eq!(messages, ["the lane -1 stands in `left`"]);
 }
+
+#[test]
+fn elements_out_of_order_are_sorted_and_found() {
+    let width = |at: f64, a: f64| record("width", "sOffset", at, [a, 0.0]);
+    let lane = |a: f64| [(-1, width(0.0, a))];
+    let found = |geometry: &str, lanes: &str| {
+        let layout = road("5", geometry, lanes);
+        let found = findings(&layout, Code::Implausible).into_iter();
+        (
+            found.map(|(_, message)| message).collect::<Vec<_>>(),
+            layout,
+        )
+    };
+    let sections = [section(3.0, &lane(6.0)), section(0.0, &lane(3.0))];
+    let (messages, layout) = found(&line(0.0, 5.0), &sections.concat());
+    let expected = ["<laneSection> begins at s = 0, after one that begins at 3"];
+    assert_eq!(messages, expected);
+    assert_end(&layout, "7.0.-1", [3.0, -1.5]);
+    assert_end(&layout, "7.1.-1", [5.0, -3.0]);
+    let records = section(0.0, &[(-1, width(3.0, 6.0) + &width(0.0, 3.0))]);
+    let (messages, layout) = found(&line(0.0, 5.0), &records);
+    assert_eq!(
+        messages,
+        ["<width> begins at sOffset = 0, after one that begins at 3"]
+    );
+    assert_end(&layout, "7.0.-1", [5.0, -3.0]);
+    let lines = line(2.0, 3.0) + &line(0.0, 2.0);
+    let messages = found(&lines, &section(0.0, &lane(3.0))).0;
+    assert_eq!(
+        messages,
+        ["<geometry> begins at s = 0, after one that begins at 2"]
+    );
+    let sorted = [section(0.0, &lane(3.0)), section(3.0, &lane(6.0))];
+    assert!(found(&line(0.0, 5.0), &sorted.concat()).0.is_empty());
+}

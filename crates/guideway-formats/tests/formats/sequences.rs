@@ -196,6 +196,7 @@ fn comments_and_further_layouts_are_named() {
         "{ // a\n\"layouts\": []}",
         "{\"layouts\": /* a */ []}",
         "{ # a\n}",
+        "{\"layouts\": [] // a\n}",
     ] {
         assert!(
             error(text).contains("comment; JSON has none"),
@@ -219,6 +220,8 @@ fn other_formats_are_named_with_a_way_out() {
         (b"\x28\xB5\x2F\xFD\x04", "zstd", "Unpack"),
         (b"\x89PNG\r\n\x1A\n", "PNG", "--floor-plan"),
         (b"P5\n# map\n4 4\n255\n\0", "PGM", "--floor-plan"),
+        (b"P4 4 4 \0\0\0\0", "PBM", "--floor-plan"),
+        (b"P6 1 1 255 \0\0\0", "PPM", "--floor-plan"),
         (b"%PDF-1.7\n", "PDF", "SVG"),
         (b"SQLite format 3\0\x10", "GeoPackage", "ogr2ogr"),
         (
