@@ -21,7 +21,7 @@ use super::style_sheet::StyleSheet;
 use super::viewport::{METERS_PER_PX, Viewport, corner, view_box, view_box_transform};
 use crate::ReadError;
 use crate::source::Source;
-use crate::text::percent_decoded;
+use crate::text::{percent_decoded, printable};
 use crate::xml::Xml;
 use crate::xml_builder::XmlBuilder;
 
@@ -261,24 +261,20 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         let href = node.attribute("href").or(node.attribute((XLINK, "href")));
         let target = href.and_then(|href| self.element_named(href.trim().strip_prefix('#')?));
         let Some(target) = target else {
-            let message = || match href {
-                Some(href) => format!("its target `{href}` is not in this file"),
+            let detail = match href {
+                Some(href) => format!("its target `{}` is not in this file", printable(href)),
                 None => "it has no `href`".to_owned(),
             };
             let remedy = "It is left out; refer to the `id` of an element of this file";
-            self.mapper
-                .base
-                .report(Code::UnknownValue, node, message, remedy);
-            return Ok(());
+            let mapper = &mut self.mapper;
+            return mapper.refuse(node, context, Code::UnknownValue, &detail, remedy);
         };
         let is_around = node.ancestors().any(|around| around == target);
         if is_around || self.targets.contains(&target.id()) {
-            let message = || "it refers to an element that contains it".to_owned();
+            let detail = "it refers to an element that contains it";
             let remedy = "It is left out: it would have no end; refer to another element";
-            self.mapper
-                .base
-                .report(Code::UnknownValue, node, message, remedy);
-            return Ok(());
+            let mapper = &mut self.mapper;
+            return mapper.refuse(node, context, Code::UnknownValue, detail, remedy);
         }
         self.targets.push(target.id());
         let result = self.target(node, target, context);

@@ -1,7 +1,7 @@
 //! Tests of SVG after public reports: font sizes, conditions, circles of references, strokes that
 //! do not scale, document type definitions.
 
-use guideway_layout::{Code, RunPoints};
+use guideway_layout::{Code, RunPoints, Severity};
 use guideway_spline::uniform::point;
 use guideway_spline::{Bounds, Point};
 
@@ -111,6 +111,17 @@ fn references_to_elements_around_them_are_refused() {
             .iter()
             .find(|d| d.code == Code::UnknownValue);
         assert!(found.unwrap().message.contains("contains it"), "{content}");
+        assert!(!layout.refused.is_empty() && found.unwrap().severity == Severity::Error);
+    }
+    for (href, said) in [
+        ("href='#none'", "`#none` is not in this file"),
+        ("href='hall.svg#a'", "`hall.svg#a` is not in this file"),
+        ("", "it has no `href`"),
+    ] {
+        let layout = page(&format!("<use {href}/><line x2='9'/>"));
+        assert_eq!((layout.paths.len(), layout.refused.len()), (1, 1));
+        let refused = layout.refused.get(0);
+        assert!(refused.detail.contains(said), "{}", refused.detail);
     }
     // The same element twice, side by side, is no circle.
     let twice = page(

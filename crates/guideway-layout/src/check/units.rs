@@ -192,14 +192,19 @@ fn check_column(
         }
         _ => return,
     };
+    let number = |row: usize| column.values.get(row).and_then(Value::number);
+    // Vehicles that drive backwards have a reverse speed.
+    let is_negative = |row: usize| {
+        column.quantity == Some(Quantity::Speed) && number(row).is_some_and(|speed| speed < 0.0)
+    };
     let magnitude = |row: usize| match column.values.get(row)? {
-        Value::Float(value) => Some(value.abs()),
-        Value::Int(value) => Some((value as f64).abs()),
+        Value::Float(_) | Value::Int(_) => number(row).map(f64::abs),
         Value::Json(list) if column.name == ORIENTATIONS => greatest(list),
         Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
     };
     let rows = 0..column.values.len();
-    let mut wrong = rows.filter(|&row| magnitude(row).is_some_and(|value| value > largest));
+    let is_large = |row: usize| magnitude(row).is_some_and(|value| value > largest);
+    let mut wrong = rows.filter(|&row| is_large(row) || is_negative(row));
     let Some(first) = wrong.next() else {
         return;
     };
@@ -215,11 +220,14 @@ fn check_column(
             let (value, name) = (value.unwrap_or_default(), element(first).element);
             let others = match others {
                 0 => String::new(),
-                1 => ", and another value is too large".to_owned(),
-                n => format!(", and {n} other values are too large"),
+                1 => ", and another value is wrong".to_owned(),
+                n => format!(", and {n} other values are wrong"),
             };
             let largest = (largest * 1e4).round() / 1e4;
-            format!("{name} has {value}, more than {largest}{others}")
+            match is_negative(first) {
+                true => format!("{name} has {value}, less than 0{others}"),
+                false => format!("{name} has {value}, more than {largest}{others}"),
+            }
         },
         remedy,
     );

@@ -234,9 +234,16 @@ fn impossible_speeds_and_angles_are_reported_once_per_column() {
         .map(|d| format!("{}: {}", d.place, d.message))
         .collect();
     let speed = "column maxSpeed (m/s) of paths: path \"e2\" has 1500, more than 100, and another \
-                 value is too large";
+                 value is wrong";
     let turn = "column turn (rad) of paths: path \"e3\" has -90, more than 6.2832";
     assert_eq!(texts, [speed, turn]);
+    let (place, message) = only(
+        &self::found(&with_speed(row(3, 5.0), -1.0)),
+        Code::Implausible,
+    );
+    assert!(place.contains("maxSpeed"), "{place}");
+    let expected = "path \"e1\" has -1, less than 0, and another value is wrong";
+    assert_eq!(message, expected);
 }
 
 #[test]
