@@ -141,7 +141,7 @@ const PDF: &[u8] = b"%PDF-";
 /// The way in which a file becomes a floor plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FloorPlanKind {
-    /// A PNG, JPEG, PBM, PGM or PPM image, which needs an [`ImagePlacement`](crate::ImagePlacement).
+    /// A PNG, JPEG, PBM, PGM or PPM image; needs an [`ImagePlacement`](crate::ImagePlacement).
     Image,
     /// A page of a PDF, to be drawn as an image.
     PdfPage,

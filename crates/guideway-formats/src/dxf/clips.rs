@@ -6,9 +6,9 @@
 //! ```
 //!
 //! A boundary is a polygon in the drawing as it was when the block was clipped, however the
-//! reference moved since. Two matrices lead from there to the block. An inverted boundary hides
-//! its inside. It is in an XRECORD; the SPATIAL_FILTER has then a polygon for programs that know no
-//! inverted ones, of which AutoCAD leaves corners out. Files were seen in which the two polygons are
+//! reference moved since. Two matrices lead from there to the block. An inverted boundary hides its
+//! inside. It is in an XRECORD; the SPATIAL_FILTER has then a polygon for programs that know no
+//! inverted ones, of which AutoCAD leaves corners out. ezdxf's author found that the two may be
 //! exchanged: the inner one is hidden. Source: the DXF reference, and the experiments of ezdxf's
 //! author ("Exploring the transformation behavior of SPATIAL_FILTER", `ClippingPath`).
 
@@ -138,7 +138,7 @@ impl<'b> Filter<'b> {
     /// The boundary; that of the corners `hidden`, where they are stated.
     fn boundary(self, hidden: Option<Vec<Vector3>>) -> Boundary {
         let is_inverted = hidden.is_some();
-        // Some files state the outer polygon as the hidden one, around the inner one.
+        // The outer polygon may stand in the place of the hidden one.
         let hidden = hidden.filter(|hidden| !is_around(hidden, &self.corners));
         let mut corners = hidden.unwrap_or(self.corners);
         if let [min, max] = corners[..] {

@@ -247,7 +247,7 @@ mod tests {
         // No escapes of texts.
         assert_eq!(decode(b"A^B ^i^^I^"), "A^B ^i^\t^");
         assert_eq!(decode("^ä".as_bytes()), "^ä");
-        // What an escape stands for begins no other escape.
+        // The character of an escape begins no other escape.
         assert_eq!(decode(br"\U+005EI ^ \U+0041"), "^I ^A");
         let parts = ["a^", "Ib\\U+00", "E4\u{e4}"];
         let bytes = parts.map(str::as_bytes).into_iter();
