@@ -350,6 +350,8 @@ impl App {
         for file in ctx.input(|input| input.raw.dropped_files.clone()) {
             self.open_dropped(file.path());
         }
+        self.poll_project();
+        self.files.poll_new_layouts();
         if let Some(written) = self.writer.poll() {
             self.end_write(written);
         }

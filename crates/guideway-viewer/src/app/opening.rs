@@ -8,7 +8,6 @@ use guideway_compose::FloorPlanKind;
 use super::state::App;
 use crate::LaunchOptions;
 use crate::background::RepaintHandle;
-use crate::files::LayerContext;
 use crate::project::is_project;
 use crate::services::AppServices;
 
@@ -27,11 +26,10 @@ impl App {
             app.open_any(file);
         }
         // A project may have a floor plan of its own.
-        if !options.floor_plan.is_empty() {
-            let LayerContext {
-                services, repaint, ..
-            } = &app.context;
-            app.floor_plan.set(&options.floor_plan, services, repaint);
+        match app.project_reader.is_busy() {
+            true => app.project_reader.plan_after = options.floor_plan,
+            false if !options.floor_plan.is_empty() => app.show_floor_plan(&options.floor_plan),
+            false => {}
         }
         app
     }
@@ -39,7 +37,8 @@ impl App {
     /// Opens a layout or a project.
     pub(crate) fn open_any(&mut self, path: PathBuf) {
         match is_project(&path) {
-            true => self.open_project(&path),
+            true => self.open_project(path),
+            false if self.project_reader.is_busy() => self.project_reader.files_after.push(path),
             false => self.open(path),
         }
     }

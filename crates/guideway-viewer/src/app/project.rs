@@ -6,9 +6,10 @@ use guideway_document::Document;
 use guideway_layout::shown_path;
 use guideway_spline::Point;
 
-use super::open_project::OpenProject;
+use super::open_project::{OpenProject, ReadProject};
 use super::state::App;
 use crate::action::Action;
+use crate::background::BackgroundTask;
 use crate::command::Command;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
@@ -125,20 +126,39 @@ impl App {
         })
     }
 
+    /// Starts to read a project; the disk may be slow.
+    pub(super) fn open_project(&mut self, path: PathBuf) {
+        let (services, file) = (std::sync::Arc::clone(&self.context.services), path.clone());
+        let read = move || ReadProject::read(&file, &*services);
+        let task = BackgroundTask::start(&self.context.repaint, read);
+        self.project_reader.start(path, task);
+    }
+
+    /// Opens a project that has been read, and what waits for it.
+    pub(super) fn poll_project(&mut self) {
+        let Some((path, read)) = self.project_reader.poll() else {
+            return;
+        };
+        match read {
+            Ok(read) => self.show_project(&path, &read),
+            Err(error) => {
+                let file = shown_path(&path);
+                self.dialogs.notices.add(format!("{file}: {error}"));
+            }
+        }
+        for file in std::mem::take(&mut self.project_reader.files_after) {
+            self.open(file);
+        }
+        let plan = std::mem::take(&mut self.project_reader.plan_after);
+        if !plan.is_empty() {
+            self.show_floor_plan(&plan);
+        }
+    }
+
     /// Opens what a project remembers, and closes the other files unless they have changes. Names
     /// the files that are missing.
-    pub(super) fn open_project(&mut self, path: &Path) {
-        let services = std::sync::Arc::clone(&self.context.services);
-        let text = services
-            .read_project(path)
-            .map_err(|error| error.to_string());
-        let project = match text.and_then(|text| Project::parse(&text)) {
-            Ok(project) => project,
-            Err(error) => {
-                let file = shown_path(path);
-                return self.dialogs.notices.add(format!("{file}: {error}"));
-            }
-        };
+    fn show_project(&mut self, path: &Path, read: &ReadProject) {
+        let project = &read.project;
         self.close_unchanged();
         self.project = OpenProject {
             path: Some(path.to_owned()),
@@ -157,7 +177,7 @@ impl App {
             ..project.look.clone()
         };
         self.recolor();
-        let missing = self.open_project_files(path, &project);
+        let missing = self.open_project_files(path, read);
         if !missing.is_empty() {
             let names = missing.join(", ");
             let notice = say!("Files of the project that do not exist: {names}", names);
@@ -174,11 +194,11 @@ impl App {
     }
 
     /// Opens the files and the floor plan of a project. Returns the names of missing ones.
-    fn open_project_files(&mut self, path: &Path, project: &Project) -> Vec<String> {
-        let services = std::sync::Arc::clone(&self.context.services);
+    fn open_project_files(&mut self, path: &Path, read: &ReadProject) -> Vec<String> {
+        let project = &read.project;
         let mut missing = Vec::new();
         let mut is_there = |file: &Path| {
-            let is_there = services.file_stamp(file).is_some();
+            let is_there = !read.missing.contains(file);
             if !is_there {
                 missing.push(shown_path(file));
             }
@@ -215,13 +235,18 @@ impl App {
             true => file.into_owned(),
             false => format!("{file}@{}", plan.place),
         };
-        let LayerContext {
-            services, repaint, ..
-        } = &self.context;
-        self.floor_plan.set(&text, services, repaint);
+        self.show_floor_plan(&text);
         self.floor_plan.is_visible = plan.is_shown;
         self.floor_plan.is_locked = plan.is_locked;
         self.floor_plan.opacity = plan.opacity;
+    }
+
+    /// Starts to read a floor plan.
+    pub(super) fn show_floor_plan(&mut self, text: &str) {
+        let LayerContext {
+            services, repaint, ..
+        } = &self.context;
+        self.floor_plan.set(text, services, repaint);
     }
 
     fn close_unchanged(&mut self) {

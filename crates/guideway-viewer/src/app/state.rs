@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use guideway_document::Document;
 
-use super::open_project::OpenProject;
+use super::open_project::{OpenProject, ProjectReader};
 use crate::backdrop::{FloorPlanLayer, PlanEditor, SweptAreasLayer};
 use crate::background::RepaintHandle;
 use crate::canvas::Canvas;
@@ -55,6 +55,7 @@ pub(crate) struct App {
     pub(crate) dialogs: Dialogs,
     pub(crate) welcome: Welcome,
     pub(super) project: OpenProject,
+    pub(super) project_reader: ProjectReader,
     /// The element under the open context menu.
     pub(super) context_place: ContextPlace,
     /// The graphics adapter that shows the window; empty without a window.
@@ -115,6 +116,7 @@ impl App {
             dialogs: Dialogs::default(),
             welcome: Welcome::default(),
             project: OpenProject::default(),
+            project_reader: ProjectReader::default(),
             context_place: ContextPlace::default(),
             adapter: String::new(),
             writer: FileWriter::default(),
@@ -136,7 +138,7 @@ impl App {
 
     /// Returns `true` if everything shows the last state.
     pub(crate) fn is_settled(&self) -> bool {
-        self.files.is_settled()
+        self.files.is_settled() && !self.project_reader.is_busy()
     }
 
     /// The document that is edited, unless it is not loaded or an edit has it.

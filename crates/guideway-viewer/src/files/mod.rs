@@ -6,6 +6,7 @@
 //! | [`Layer`] | one open file: loader, document slot, picture, tasks | `layer`, `layer_poll` |
 //! | [`Loader`](loader::Loader) | the thread that reads a file | `loader` |
 //! | [`DraftFile`](draft_file::DraftFile) | the first state of a layout without a file | `draft_file` |
+//! | `NewLayouts` | layouts that wait for a name | `new_layouts` |
 //! | [`FileWriter`] | the file being written | `file_writer` |
 //! | [`Watcher`](watcher::Watcher) | the thread that detects changes on disk | `watcher` |
 //! | [`RecentFiles`](recent_files::RecentFiles) | files of earlier runs | `recent_files` |
@@ -18,6 +19,7 @@ mod layer_event;
 mod layer_look;
 mod layer_poll;
 mod loader;
+mod new_layouts;
 mod open_files;
 mod recent_files;
 mod save_state;

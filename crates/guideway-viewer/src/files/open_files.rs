@@ -7,11 +7,12 @@ use guideway_document::Document;
 use guideway_scene::SceneOptions;
 use guideway_spline::Bounds;
 
-use super::draft_file::{DEFAULT_EXTENSION, DraftFile};
+use super::draft_file::DraftFile;
 use super::layer::Layer;
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::loader::NewLayout;
+use super::new_layouts::{NewLayoutRequest, NewLayouts, draft_state, free_name};
 use super::recent_files::RecentFiles;
 use super::save_state::{SavedFile, changed_on_disk, gone_from_disk};
 use super::watcher::Watcher;
@@ -25,6 +26,7 @@ pub(crate) struct OpenFiles {
     watcher: Watcher,
     /// True if the watcher's list is outdated.
     is_watch_outdated: bool,
+    new_layouts: NewLayouts,
     context: LayerContext,
 }
 
@@ -36,6 +38,7 @@ impl OpenFiles {
             recent: RecentFiles::load(context.services.state_folder()),
             watcher: Watcher::start(context.repaint.clone()),
             is_watch_outdated: false,
+            new_layouts: NewLayouts::default(),
             context,
         }
     }
@@ -113,7 +116,7 @@ impl OpenFiles {
 
     /// Returns `true` if nothing is in progress in any file.
     pub(crate) fn is_settled(&self) -> bool {
-        self.layers.iter().all(Layer::is_settled)
+        self.new_layouts.is_empty() && self.layers.iter().all(Layer::is_settled)
     }
 
     /// Edits the next file from now on.
@@ -136,8 +139,8 @@ impl OpenFiles {
         self.push(layer);
     }
 
-    /// Opens a layout that has no file yet. Its suggested name begins with `stem`, with a number
-    /// behind it where an open file or one on disk has that name.
+    /// Opens a layout that has no file yet, once it has a name. The name begins with `stem`, with a
+    /// number behind it where an open file or one on disk has that name.
     pub(crate) fn open_untitled(
         &mut self,
         stem: &str,
@@ -145,41 +148,45 @@ impl OpenFiles {
         method: &str,
         options: SceneOptions,
     ) {
-        let path = self.free_name(stem);
-        let state = self.draft_state();
-        let draft = state.and_then(|state| DraftFile::create(&state, &path));
-        let new = (Some(new), draft);
-        let layer = Layer::open(path, new, method, options, &self.context);
-        self.push(layer);
+        self.new_layouts.push(NewLayoutRequest {
+            stem: stem.to_owned(),
+            new,
+            method: method.to_owned(),
+            options,
+        });
+        self.name_new_layout();
     }
 
-    /// The first name that begins with `stem` and that neither an open file nor one on disk has.
-    fn free_name(&self, stem: &str) -> PathBuf {
-        let name = |stem: &str| PathBuf::from(format!("{stem}.{DEFAULT_EXTENSION}"));
-        let numbered = (2..).map(|number| name(&format!("{stem}-{number}")));
-        let mut names = std::iter::once(name(stem)).chain(numbered);
-        let services = &self.context.services;
-        let is_free =
-            |path: &PathBuf| self.index_of(path).is_none() && services.file_stamp(path).is_none();
-        names.find(is_free).unwrap_or_default()
+    fn name_new_layout(&mut self) {
+        let taken = self.layers.iter().map(|layer| layer.path().to_owned());
+        self.new_layouts.start(taken.collect(), &self.context);
     }
 
-    /// The state folder, if it keeps drafts.
-    fn draft_state(&self) -> Option<PathBuf> {
-        let services = &self.context.services;
-        services
-            .state_folder()
-            .filter(|_| services.keeps_journals())
+    /// Opens the layouts without a file that have got their names.
+    pub(crate) fn poll_new_layouts(&mut self) {
+        while let Some((request, (path, draft))) = self.new_layouts.poll() {
+            if self.index_of(&path).is_some() {
+                draft.iter().for_each(DraftFile::delete);
+                self.new_layouts.put_back(request);
+            } else {
+                let (new, method) = ((Some(request.new), draft), request.method);
+                let layer = Layer::open(path, new, &method, request.options, &self.context);
+                self.push(layer);
+            }
+            self.name_new_layout();
+        }
     }
 
-    /// Opens the layouts without a file that earlier runs left with unsaved work.
+    /// Opens the layouts without a file that earlier runs left with unsaved work. Called before
+    /// the first frame.
     pub(crate) fn open_left_drafts(&mut self, method: &str, options: &SceneOptions) {
-        let state = self.draft_state();
+        let state = draft_state(&*self.context.services);
         for draft in state.iter().flat_map(|state| DraftFile::left(state)) {
             // Two windows may have left drafts of one name, and a file may have it by now.
-            let path = self.free_name(&draft.suggested_stem());
-            let new = NewLayout::Draft(draft.path().to_owned());
-            let new = (Some(new), Some(draft));
+            let is_open = |path: &Path| self.index_of(path).is_some();
+            let stem = draft.suggested_stem();
+            let path = free_name(&stem, is_open, &*self.context.services);
+            let new = (Some(NewLayout::Draft(draft.path().to_owned())), Some(draft));
             let layer = Layer::open(path, new, method, options.clone(), &self.context);
             self.push(layer);
         }
@@ -224,9 +231,7 @@ impl OpenFiles {
 
     /// Recolors all files whose scenes have other options.
     pub(crate) fn recolor(&mut self, options: &SceneOptions) {
-        for index in 0..self.layers.len() {
-            self.recolor_one(index, options);
-        }
+        (0..self.layers.len()).for_each(|index| self.recolor_one(index, options));
     }
 
     /// Recolors one file if its scene has other options.
@@ -239,9 +244,8 @@ impl OpenFiles {
 
     /// Replaces the render method of all files.
     pub(crate) fn set_method(&mut self, name: &str) {
-        for layer in &self.layers {
-            layer.picture.set_method(name);
-        }
+        let layers = self.layers.iter();
+        layers.for_each(|layer| layer.picture.set_method(name));
     }
 
     /// Takes the results of the threads of one file.
@@ -300,11 +304,9 @@ impl OpenFiles {
 
     /// Adds a file to the recent files. Returns a notice if the list cannot be written.
     pub(crate) fn remember(&mut self, index: usize) -> Option<String> {
-        if self.layers[index].is_untitled() {
-            return None;
-        }
-        let path = self.layers[index].path().to_owned();
-        self.remember_path(&path)
+        let layer = &self.layers[index];
+        let path = (!layer.is_untitled()).then(|| layer.path().to_owned());
+        self.remember_path(&path?)
     }
 
     /// Adds a file to the recent files, as [`Self::remember`] does.

@@ -10,6 +10,7 @@ use guideway_scene::{Frame, Method, View};
 
 use super::{
     FileFormat, FileQuestion, FileStamp, Job, LostPart, PendingFileAnswer, PictureRequest, Saved,
+    names_in,
 };
 
 /// Longest project file, in bytes: ten thousand files with names of a hundred letters.
@@ -85,6 +86,12 @@ pub trait AppServices: Send + Sync {
     /// a file.
     fn file_stamp(&self, path: &Path) -> Option<FileStamp> {
         FileStamp::of(path)
+    }
+
+    /// Names of the entries of a folder that `accepts` a name, of its first `limit` entries; names
+    /// of folders end with `/`. Empty without the folder.
+    fn names_in(&self, folder: &Path, limit: usize, accepts: &dyn Fn(&str) -> bool) -> Vec<String> {
+        names_in(folder, limit, accepts)
     }
 
     /// Reads a floor plan. `plan` is a file name with an optional placement, such as

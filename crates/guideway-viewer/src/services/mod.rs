@@ -6,6 +6,7 @@
 mod app_services;
 mod file_question;
 mod file_stamp;
+mod folder;
 mod job;
 mod picture_request;
 mod saved;
@@ -14,6 +15,7 @@ pub(crate) use app_services::WINDOW_ERROR;
 pub use app_services::{AppServices, LoadStage, MAX_PROJECT_BYTES, MethodChoice};
 pub use file_question::{FileAnswer, FileFormat, FileQuestion, PendingFileAnswer};
 pub use file_stamp::FileStamp;
+pub(crate) use folder::names_in;
 pub use job::Job;
 pub use picture_request::{PictureRequest, SweptAreas};
 pub use saved::{LostPart, Saved};

@@ -161,9 +161,9 @@ fn new_layouts_lie_beside_open_files_and_close_like_them() {
     ]);
     let mut window = TestWindow::open(&disk, &["site.arrow"], Some("cpu"));
     window.wait(|app| app.document().is_some());
-    for _ in 0..2 {
+    for count in [2, 3] {
         window.key(CTRL, Key::N);
-        window.wait(|app| app.document().is_some());
+        window.wait(|app| app.files.layers().len() == count && app.document().is_some());
     }
     let names: Vec<String> = window
         .app()

@@ -7,7 +7,7 @@ use eframe::egui::{Key, Modifiers};
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::command::Command;
-use crate::services::FileAnswer;
+use crate::services::{AppServices, FileAnswer};
 
 const NONE: Modifiers = Modifiers::NONE;
 
@@ -84,13 +84,46 @@ fn missing_files_are_named_and_the_rest_opens() {
     std::fs::write(&project, text).unwrap();
     let disk = disk(folder.path());
     let mut window = TestWindow::open(&disk, &[project.to_str().unwrap()], Some("cpu"));
-    window.wait(|app| app.files.is_settled());
+    window.wait(|app| app.files.layers().len() == 1 && app.is_settled());
     assert!(has_notice(window.app(), "gone.lif") && has_notice(window.app(), "gone.png"));
     assert_eq!(window.document().layout().paths.len(), 5);
     assert!(window.app().floor_plan.is_empty());
     // A damaged project leaves the window as it is.
     std::fs::write(&project, "version = 1\n[[file]]\npath = 7\n").unwrap();
     window.app().open_any(project);
-    assert!(has_notice(window.app(), "line 3"));
+    window.wait(|app| has_notice(app, "line 3"));
     assert_eq!(window.app().files.layers().len(), 1);
+}
+
+#[test]
+fn window_does_not_wait_for_the_disk_of_names_and_projects() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = folder.path().join("hall.guideway-project.toml");
+    let text = "version = 1\n[[file]]\npath = \"a.arrow\"\n[floor-plan]\npath = \"gone.png\"\n";
+    std::fs::write(&project, text).unwrap();
+    let disk = disk(folder.path());
+    // The file of the command line comes after those of the project, which would close it.
+    let b = folder.path().join("b.arrow");
+    let launch = [&project, &b].map(|path| path.to_str().unwrap());
+    let mut window = TestWindow::open(&disk, &launch, Some("cpu"));
+    window.wait(|app| app.files.layers().len() == 2 && app.is_settled());
+    assert!(has_notice(window.app(), "gone.png"));
+    window.key(Modifiers::COMMAND, Key::N);
+    window.wait(|app| app.files.layers().len() == 3 && app.is_settled());
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(Command::ExportPng, &ctx);
+    let typed = folder.path().join("hal").to_str().unwrap().to_owned();
+    window.harness.run_steps(2);
+    window.app().dialogs.prompt.open_mut().unwrap().text = typed;
+    window.harness.run_steps(2);
+    window.key(NONE, Key::Tab);
+    window.wait(|app| {
+        let text = app.dialogs.prompt.text();
+        text.is_some_and(|text| text.ends_with("hall.guideway-project.toml"))
+    });
+    assert_eq!(*window.disk.on_window.lock().unwrap(), [""; 0]);
+    // A recorder that records nothing would let all pass.
+    assert!(!window.disk.names_in(folder.path(), 9, &|_| true).is_empty());
+    let recorded = window.disk.on_window.lock().unwrap();
+    assert_eq!(*recorded, ["listing a folder"]);
 }

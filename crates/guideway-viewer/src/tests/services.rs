@@ -12,15 +12,14 @@ use guideway_cpu::Cpu;
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_scene::{
-    Budget, Cancel, EditOutcome, Frame, Gesture, Method, MethodInfo, Preparation, Prepared,
-    RenderError, Report, Style, View,
+    Budget, Cancel, Edit, EditOutcome, Frame, Gesture, Method, MethodInfo, Preparation, Prepared,
+    RenderError, Report, Scene, Style, View,
 };
-use guideway_scene::{Edit, Scene};
 use guideway_spline::{Point, Runs};
 
 use crate::services::{
     AppServices, FileAnswer, FileFormat, FileQuestion, FileStamp, Job, LostPart, MethodChoice,
-    PendingFileAnswer, PictureRequest, Saved, WINDOW_ERROR,
+    PendingFileAnswer, PictureRequest, Saved, WINDOW_ERROR, names_in,
 };
 use guideway_layout::UserError;
 
@@ -72,10 +71,9 @@ impl TestServices {
     pub(crate) fn with(files: impl IntoIterator<Item = (&'static str, Layout)>) -> Arc<Self> {
         let files = files
             .into_iter()
-            .map(|(name, layout)| (name.into(), layout))
-            .collect();
+            .map(|(name, layout)| (name.into(), layout));
         Arc::new(Self {
-            files: Mutex::new(files),
+            files: Mutex::new(files.collect()),
             window: Some(thread::current().id()),
             ..Self::default()
         })
@@ -184,11 +182,8 @@ impl AppServices for TestServices {
     fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
         job.advance(1, 2);
         self.wait_for_disk(job)?;
-        let files = locked(&self.files);
-        files
-            .get(path)
-            .cloned()
-            .ok_or_else(|| Self::error("no such file"))
+        let file = locked(&self.files).get(path).cloned();
+        file.ok_or_else(|| Self::error("no such file"))
     }
 
     fn example_site(&self) -> Result<Layout, UserError> {
@@ -196,6 +191,7 @@ impl AppServices for TestServices {
     }
 
     fn read_project(&self, path: &Path) -> Result<String, UserError> {
+        self.note_thread("reading a project");
         std::fs::read_to_string(path).map_err(|error| Self::error(&error.to_string()))
     }
 
@@ -220,10 +216,9 @@ impl AppServices for TestServices {
     }
 
     fn check_save_in_place(&self, _: &Layout, file: &Path) -> Result<(), UserError> {
-        match file.extension().is_some_and(|ending| ending == "dxf") {
-            true => Err(Self::error("the file is a drawing")),
-            false => Ok(()),
-        }
+        let is_drawing = file.extension().is_some_and(|ending| ending == "dxf");
+        let problem = || Self::error("the file is a drawing");
+        (!is_drawing).then_some(()).ok_or_else(problem)
     }
 
     fn file_stamp(&self, path: &Path) -> Option<FileStamp> {
@@ -234,6 +229,11 @@ impl AppServices for TestServices {
             modified: SystemTime::UNIX_EPOCH,
             bytes: writes.get(path).copied().unwrap_or(0),
         })
+    }
+
+    fn names_in(&self, at: &Path, limit: usize, accepts: &dyn Fn(&str) -> bool) -> Vec<String> {
+        self.note_thread("listing a folder");
+        names_in(at, limit, accepts)
     }
 
     fn save_layout(

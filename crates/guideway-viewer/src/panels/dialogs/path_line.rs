@@ -1,8 +1,9 @@
 //! Paths as typed: expands `~`, and completes names from the entries of a folder.
 
 use std::env;
-use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+
+use crate::services::AppServices;
 
 /// Most entries of a folder that a completion examines.
 const MAX_EXAMINED: usize = 20_000;
@@ -37,7 +38,7 @@ fn expanded(text: &str, home: Option<&Path>) -> PathBuf {
 
 /// Completes the name at the end of a text from the entries of its folder. Hidden entries need a
 /// leading point.
-pub(super) fn complete(text: &str) -> Completion {
+pub(super) fn complete(text: &str, services: &dyn AppServices) -> Completion {
     let text = text.trim_start();
     let cut = text.rfind(['/', MAIN_SEPARATOR]).map_or(0, |at| at + 1);
     let (folder, start) = text.split_at(cut);
@@ -45,7 +46,9 @@ pub(super) fn complete(text: &str) -> Completion {
         "" => PathBuf::from("."),
         folder => path_of(folder),
     };
-    let mut names = names_in(&path, start);
+    let is_wanted =
+        |name: &str| name.starts_with(start) && (!name.starts_with('.') || !start.is_empty());
+    let mut names = services.names_in(&path, MAX_EXAMINED, &is_wanted);
     names.sort_unstable();
     let common = names.iter().skip(1).fold(
         names.first().map_or(start, String::as_str),
@@ -58,20 +61,6 @@ pub(super) fn complete(text: &str) -> Completion {
     }
 }
 
-fn names_in(folder: &Path, start: &str) -> Vec<String> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let name = |entry: fs::DirEntry| {
-        let name = entry.file_name().into_string().ok()?;
-        let is_wanted = name.starts_with(start) && (!name.starts_with('.') || !start.is_empty());
-        // A link to a folder is a folder.
-        is_wanted.then(|| match entry.path().is_dir() {
-            true => name + "/",
-            false => name,
-        })
-    };
-    entries.take(MAX_EXAMINED).filter_map(name).collect()
-}
-
 /// Length of the common start of two texts, in bytes.
 fn common_bytes(a: &str, b: &str) -> usize {
     let same = a.chars().zip(b.chars()).take_while(|(a, b)| a == b);
@@ -80,7 +69,10 @@ fn common_bytes(a: &str, b: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+    use crate::tests::services::TestServices;
 
     #[test]
     fn tilde_is_the_home_folder_only_at_the_start_of_a_name() {
@@ -105,8 +97,9 @@ mod tests {
         }
         fs::create_dir(folder.path().join("plans")).unwrap();
         let base = folder.path().join("").to_string_lossy().into_owned();
+        let services = TestServices::with([]);
         let done = |start: &str| {
-            let done = complete(&format!("{base}{start}"));
+            let done = complete(&format!("{base}{start}"), &*services);
             (done.text.replace(&base, ""), done.candidates.len())
         };
         assert_eq!(done(""), (String::new(), 4));
@@ -119,7 +112,7 @@ mod tests {
         for number in 0..20 {
             fs::write(folder.path().join(format!("x{number}")), "").unwrap();
         }
-        let many = complete(&format!("{base}x"));
+        let many = complete(&format!("{base}x"), &*services);
         assert!(many.has_more && many.candidates.len() == MAX_CANDIDATES);
     }
 }

@@ -37,6 +37,8 @@ pub(crate) struct OpenPrompt {
     /// True if the text field takes the focus in the next frame.
     wants_focus: bool,
     completion: Completion,
+    /// The text of the completion in progress: its folder may be slow or gone.
+    completing: Option<(String, BackgroundTask<Completion>)>,
     /// Why the text is no answer.
     problem: Option<String>,
     /// The check of the name that was confirmed, with its problem: a disk may be slow or gone.
@@ -52,6 +54,7 @@ impl Prompt {
             width_px: DEFAULT_WIDTH_PX,
             wants_focus: true,
             completion: Completion::default(),
+            completing: None,
             problem: None,
             check: None,
         });
@@ -84,6 +87,12 @@ impl Prompt {
         self.open.as_ref().is_some_and(|open| open.check.is_some())
     }
 
+    /// The text of the open prompt.
+    #[cfg(test)]
+    pub(crate) fn text(&self) -> Option<&str> {
+        self.open.as_ref().map(|open| &*open.text)
+    }
+
     #[cfg(test)]
     pub(crate) fn open_mut(&mut self) -> Option<&mut OpenPrompt> {
         self.open.as_mut()
@@ -105,6 +114,7 @@ impl Prompt {
         match modal.inner {
             Some(Answer::Browse) => return Some(Action::Browse(prompt.kind)),
             Some(Answer::Ok) => prompt.start_check(services, repaint),
+            Some(Answer::Complete) => prompt.start_completion(services, repaint),
             Some(Answer::Cancel) => {
                 self.open = None;
                 return None;
@@ -115,6 +125,7 @@ impl Prompt {
             }
             None => {}
         }
+        prompt.take_completion(ctx);
         let result = prompt.check.as_ref()?.result_within(CHECK_WAIT)?;
         prompt.check = None;
         prompt.problem = result.unwrap_or_else(|error| Some(error.to_string()));
@@ -133,12 +144,10 @@ impl OpenPrompt {
         ui.set_max_width(LINE_WIDTH);
         let is_checking = self.check.is_some();
         let title = ui.label(self.kind.title());
-        let id = Id::unique("prompt line");
+        let id = line_id();
         let tab = |ui: &mut Ui| ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Tab));
         if ui.memory(|memory| memory.has_focus(id)) && tab(ui) {
-            self.completion = complete(&self.text);
-            self.text.clone_from(&self.completion.text);
-            place_cursor_at_end(ui, id, &self.text);
+            answer = Some(Answer::Complete);
         }
         let line = TextEdit::singleline(&mut self.text).id(id).lock_focus(true);
         let field = ui.add_enabled(!is_checking, line.desired_width(LINE_WIDTH));
@@ -200,12 +209,40 @@ impl OpenPrompt {
         }
     }
 
+    /// Starts to complete the text, beside the window.
+    fn start_completion(&mut self, services: &Arc<dyn AppServices>, repaint: &RepaintHandle) {
+        let (text, services) = (self.text.clone(), Arc::clone(services));
+        let done = move || complete(&text, &*services);
+        self.completing = Some((self.text.clone(), BackgroundTask::start(repaint, done)));
+    }
+
+    /// Takes a completion that has ended, unless the text is another one by now.
+    fn take_completion(&mut self, ctx: &Context) {
+        let task = self.completing.as_ref();
+        let Some(done) = task.and_then(|(_, task)| task.result_within(CHECK_WAIT)) else {
+            return;
+        };
+        if let (Some((text, _)), Ok(done)) = (self.completing.take(), done)
+            && text == self.text
+        {
+            self.completion = done;
+            self.text.clone_from(&self.completion.text);
+            place_cursor_at_end(ctx, line_id(), &self.text);
+            ctx.request_repaint();
+        }
+    }
+
     /// Starts to check the text, beside the window.
     fn start_check(&mut self, services: &Arc<dyn AppServices>, repaint: &RepaintHandle) {
         let (kind, path, services) = (self.kind, self.answer(), Arc::clone(services));
         let check = move || problem_of(kind, &path, &*services);
         self.check = Some(BackgroundTask::start(repaint, check));
     }
+}
+
+/// The identifier of the text field.
+fn line_id() -> Id {
+    Id::unique("prompt line")
 }
 
 /// Why a path is no answer, if it is none.
@@ -229,6 +266,7 @@ fn problem_of(kind: PromptKind, path: &Path, services: &dyn AppServices) -> Opti
 #[derive(Clone, Copy)]
 enum Answer {
     Ok,
+    Complete,
     Browse,
     Cancel,
 }
@@ -245,11 +283,11 @@ fn formats_line(services: &dyn AppServices) -> String {
     )
 }
 
-fn place_cursor_at_end(ui: &Ui, id: Id, text: &str) {
+fn place_cursor_at_end(ctx: &Context, id: Id, text: &str) {
     use eframe::egui::text::{CCursor, CCursorRange};
     use eframe::egui::text_edit::TextEditState;
-    let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+    let mut state = TextEditState::load(ctx, id).unwrap_or_default();
     let end = CCursorRange::one(CCursor::new(text.chars().count()));
     state.cursor.set_char_range(Some(end));
-    state.store(ui.ctx(), id);
+    state.store(ctx, id);
 }
