@@ -100,7 +100,7 @@ fn lists_each_kind_of_change() {
         after(|l| l.paths.set_direction(0, Direction::Both)),
         path(
             "e1",
-            set("direction", None, Some("one way"), Some("two ways"))
+            set("direction", None, Some("one-way"), Some("two-way"))
         )
     );
     assert_eq!(

@@ -138,7 +138,7 @@ fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, UnknownCol
         })),
         "direction" => Ok(Box::new(|path| {
             let both = paths.get(path as usize).direction() == Direction::Both;
-            Some(if both { "both ways" } else { "one way" }.to_owned())
+            Some(if both { "two-way" } else { "one-way" }.to_owned())
         })),
         "vehicle_type" => Ok(Box::new(|path| {
             let types: Vec<_> = paths.vehicle_types().of(path as usize).collect();

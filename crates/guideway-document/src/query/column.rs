@@ -223,7 +223,7 @@ fn position_m(layout: &Layout, of: Table, row: u32) -> Option<Point<f64>> {
 /// A direction as text, the same as in legends.
 fn direction_name(direction: Direction) -> &'static str {
     match direction {
-        Direction::Forward => "one way",
-        Direction::Both => "both ways",
+        Direction::Forward => "one-way",
+        Direction::Both => "two-way",
     }
 }

@@ -27,7 +27,7 @@ fn conditions_select_the_expected_paths() {
         ("not zone ~ a or id = path-2", vec![1, 2, 3, 5]),
         ("id = path-1 or id = path-3 and speed > 2", vec![1]),
         ("(id = path-1 or id = path-3) and speed > 1", vec![3]),
-        ("direction = \"both ways\"", vec![0, 3]),
+        ("direction = two-way", vec![0, 3]),
         ("vehicle_type = tug", vec![1]),
         ("vehicle_type != tug", vec![0, 2, 3, 4, 5]),
         ("length_m > 9.9 AND length_m < 10.1", vec![0, 1, 2, 3, 4, 5]),

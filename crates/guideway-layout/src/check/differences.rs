@@ -174,7 +174,7 @@ impl<'a> Comparison<'a> {
         }
         let both = [a, b].map(|p| self.layout.paths.get(p.row).direction() == Direction::Both);
         if both[0] != both[1] {
-            let name = |both| Some(if both { "both ways" } else { "one way" }.to_owned());
+            let name = |both| Some(if both { "two-way" } else { "one-way" }.to_owned());
             found.push(described("direction", both.map(name), None));
         }
     }

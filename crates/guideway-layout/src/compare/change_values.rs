@@ -79,8 +79,8 @@ fn text(layout: &Layout, kind: ElementKind, row: u32, value: ChangedValue) -> Op
         }
         ChangedValue::Direction => {
             let words = match path().direction() {
-                Direction::Forward => "one way",
-                Direction::Both => "two ways",
+                Direction::Forward => "one-way",
+                Direction::Both => "two-way",
             };
             Some(words.to_owned())
         }

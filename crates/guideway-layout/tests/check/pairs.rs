@@ -155,7 +155,7 @@ fn two_way_path_shares_its_curve_in_both_directions() {
         let finding = found.iter().next().unwrap();
         (finding.code, finding.message.clone())
     };
-    let differs = "has the curve of path \"1\"; they differ in direction: both ways and one way";
+    let differs = "has the curve of path \"1\"; they differ in direction: two-way and one-way";
     for runs in [&back, &there] {
         assert_eq!(
             of(Direction::Forward, runs),

@@ -32,7 +32,7 @@ pub(super) const TWO_WAY: StepKind = StepKind {
     name: "two-way",
     meaning: "Lets vehicles drive paths in both directions.",
     members: &[PATHS],
-    example: r#"{"do": "two-way", "paths": {"query": "direction = \"one way\""}}"#,
+    example: r#"{"do": "two-way", "paths": {"query": "direction = \"one-way\""}}"#,
     perform: |members, document| direct(members, document, Direction::Both),
 };
 
