@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use eframe::egui::Context;
+use eframe::egui::{Context, Vec2};
 use guideway_compose::FloorPlanKind;
 use guideway_layout::shown_path;
 use guideway_spline::Point;
@@ -16,6 +16,8 @@ use crate::tools::PointerEvent;
 
 /// Scale of an image until the user sets it, in pixels per meter.
 const FIRST_PX_PER_M: f64 = 20.0;
+/// Space between the dialog and the corner of the canvas at first, in points.
+const PLAN_WINDOW_MARGIN: Vec2 = Vec2::splat(16.0);
 
 impl App {
     /// Shows the floor plan of a text: a file, or a file and its placement. An empty text removes
@@ -77,6 +79,7 @@ impl App {
 
     /// Shows the dialog if it is open, and returns the actions of changes.
     pub(super) fn show_floor_plan_window(&mut self, ctx: &Context) -> Vec<Action> {
-        floor_plan_window::show(ctx, &mut self.plan_editor, &mut self.floor_plan)
+        let corner = self.canvas.screen().rect.max - PLAN_WINDOW_MARGIN;
+        floor_plan_window::show(ctx, &mut self.plan_editor, &mut self.floor_plan, corner)
     }
 }

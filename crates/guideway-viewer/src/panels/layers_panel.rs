@@ -1,5 +1,7 @@
 //! The Layers tab: open files with their levels and kinds of elements, and the floor plan.
 
+use std::path::Path;
+
 use eframe::egui::collapsing_header::CollapsingState;
 use eframe::egui::{Align, Button, Color32, Id, Label, Layout, RichText, Slider, Ui};
 use guideway_document::Document;
@@ -183,12 +185,17 @@ fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
     }
     ui.separator();
     let label = match floor_plan.is_reading() {
-        true => t("floor plan (loading)"),
-        false => t("floor plan"),
+        true => t("Floor plan (loading)"),
+        false => t("Floor plan"),
     };
     ui.checkbox(&mut floor_plan.is_visible, label);
     let text = floor_plan.text();
-    let plan = Label::new(RichText::new(text).small());
+    let placement = floor_plan.placement();
+    let file = placement.as_ref().map_or(text, |plan| plan.file.as_str());
+    let name = Path::new(file)
+        .file_name()
+        .map(|name| name.to_string_lossy());
+    let plan = Label::new(RichText::new(name.unwrap_or(file.into())).small());
     ui.add(plan.truncate()).on_hover_text(text);
     if let Some(error) = floor_plan.error() {
         ui.colored_label(ui.visuals().error_fg_color, error);

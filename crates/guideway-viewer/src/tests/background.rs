@@ -283,7 +283,7 @@ fn unreadable_floor_plan_shows_its_error_until_removed() {
     assert!(
         window
             .harness
-            .query_by_label_contains("floor plan")
+            .query_by_label_contains("Floor plan")
             .is_none()
     );
 }

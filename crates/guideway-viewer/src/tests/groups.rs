@@ -48,6 +48,9 @@ fn types(window: &mut TestWindow) -> Vec<String> {
 fn a_level_is_added_renamed_and_drawn_on() {
     let mut window = layers(TestWindow::showing(two_levels()));
     click(&mut window, "Add level");
+    let field = By::new().role(Role::TextInput).label("identifier");
+    let width = window.harness.get(field).rect().width();
+    assert!(width >= 190.0, "a name fits into {width} points");
     fill(&mut window, "identifier", "roof");
     fill(&mut window, "height (m)", "9,5");
     window.key(NONE, Key::Enter);

@@ -1,7 +1,7 @@
 //! The dialog about the program: version, licenses, render method, graphics adapter.
 
 use crate::language::{say, t};
-use eframe::egui::{Context, Grid, Window};
+use eframe::egui::{Align2, Context, Grid, Window};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 const LICENSES: &str = env!("CARGO_PKG_LICENSE");
@@ -17,6 +17,8 @@ impl AboutDialog {
     /// Shows the dialog if it is open.
     pub(crate) fn show(&mut self, ctx: &Context, adapter: &str, method: &str) {
         let window = Window::new(t("About Guideway")).open(&mut self.is_open);
+        let window = window.pivot(Align2::CENTER_CENTER);
+        let window = window.default_pos(ctx.content_rect().center());
         window.resizable(false).show(ctx, |ui| {
             ui.label(format!("Guideway {VERSION}"));
             ui.label(say!(

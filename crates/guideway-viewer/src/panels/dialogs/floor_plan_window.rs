@@ -1,6 +1,8 @@
 //! The dialog of the floor plan: size, place, opacity, lock, and the tasks by hand.
 
-use eframe::egui::{Button, Context, DragValue, Grid, Label, Response, Slider, Ui, Window};
+use eframe::egui::{
+    Align2, Button, Context, DragValue, Grid, Label, Pos2, Response, Slider, Ui, Window,
+};
 use guideway_spline::Point;
 
 use crate::action::Action;
@@ -17,11 +19,12 @@ const MAX_PAGE: u32 = 9_999;
 /// Width of the dialog, in points.
 const WIDTH: f32 = 280.0;
 
-/// Shows the dialog if it is open, and returns the actions of changes.
+/// Shows the dialog if it is open, first with its lower right corner at `corner`, and returns the actions of changes.
 pub(crate) fn show(
     ctx: &Context,
     editor: &mut PlanEditor,
     plan: &mut FloorPlanLayer,
+    corner: Pos2,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
     let mut is_open = editor.is_open && !plan.is_empty();
@@ -29,6 +32,8 @@ pub(crate) fn show(
     window
         .resizable(false)
         .default_width(WIDTH)
+        .pivot(Align2::RIGHT_BOTTOM)
+        .default_pos(corner)
         .show(ctx, |ui| {
             ui.set_max_width(WIDTH);
             content(ui, editor, plan, &mut actions);
@@ -71,7 +76,12 @@ fn content(
         ui.checkbox(&mut plan.is_visible, t("Shown"));
         ui.checkbox(&mut plan.is_locked, t("Locked"));
     });
-    ui.add(Slider::new(&mut plan.opacity, 0.0..=1.0).text(t("Opacity")));
+    let opacity = Slider::new(&mut plan.opacity, 0.0..=1.0).text(t("Opacity"));
+    let opacity = opacity.custom_formatter(|opacity, _| format!("{:.0} %", 100.0 * opacity));
+    ui.add(opacity.custom_parser(|text| {
+        let percent = text.trim_end_matches(['%', ' ']).parse::<f64>();
+        percent.ok().map(|percent| percent / 100.0)
+    }));
     ui.separator();
     ui.add_enabled_ui(!plan.is_locked, |ui| {
         tasks(ui, editor, plan, actions);

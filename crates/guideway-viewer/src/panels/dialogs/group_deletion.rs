@@ -101,6 +101,7 @@ impl Deletion {
     pub(super) fn show(&mut self, ui: &mut Ui) {
         ui.label(&self.text);
         let list = ScrollArea::vertical().max_height(LIST_HEIGHT);
+        let list = list.auto_shrink([false, true]);
         list.show(ui, |ui| {
             for (index, (label, _)) in self.choices.iter().enumerate() {
                 ui.radio_value(&mut self.chosen, index, label);

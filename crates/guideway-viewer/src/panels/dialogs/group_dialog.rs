@@ -13,6 +13,8 @@ use crate::units::{shown_unit, shown_value};
 
 /// Width of the fields, in points.
 const FIELD_WIDTH: f32 = 200.0;
+/// Width of the dialog, in points: a field beside the longest label.
+const WIDTH: f32 = 360.0;
 
 /// The dialog; open while it has a level or a vehicle type.
 #[derive(Default)]
@@ -160,6 +162,7 @@ impl OpenGroup {
     }
 
     fn content(&mut self, ui: &mut Ui) -> Option<Answer> {
+        ui.set_min_width(WIDTH);
         ui.strong(self.title);
         let mut enters = false;
         let focus = std::mem::take(&mut self.wants_focus);
@@ -201,6 +204,7 @@ impl OpenGroup {
 
     fn deletion_content(&mut self, ui: &mut Ui) -> Option<Answer> {
         let mut answer = None;
+        ui.set_min_width(WIDTH);
         self.deletion.show(ui);
         self.show_error(ui);
         ui.horizontal(|ui| {

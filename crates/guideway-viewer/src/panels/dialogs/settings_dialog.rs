@@ -1,6 +1,6 @@
 //! The settings that no menu has: theme, grid, file dialogs.
 
-use eframe::egui::{Checkbox, ComboBox, Context, DragValue, Grid, Ui, Window};
+use eframe::egui::{Align2, Checkbox, ComboBox, Context, DragValue, Grid, Ui, Window};
 
 use crate::action::Action;
 use crate::display_settings::{DisplaySettings, GRID_STEPS_M, ThemeChoice};
@@ -21,6 +21,8 @@ impl SettingsDialog {
     pub(crate) fn show(&mut self, ctx: &Context, settings: &mut DisplaySettings) -> Option<Action> {
         let before = settings.theme;
         let window = Window::new(t("Settings")).open(&mut self.is_open);
+        let window = window.pivot(Align2::CENTER_CENTER);
+        let window = window.default_pos(ctx.content_rect().center());
         window.resizable(false).show(ctx, |ui| {
             Grid::new("settings").num_columns(2).show(ui, |ui| {
                 theme(ui, settings);

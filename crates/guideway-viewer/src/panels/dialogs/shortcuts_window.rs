@@ -1,6 +1,6 @@
 //! The window that lists all keyboard shortcuts and mouse gestures.
 
-use eframe::egui::{Context, Grid, ScrollArea, Ui, Vec2, Window};
+use eframe::egui::{Align2, Context, Grid, ScrollArea, Ui, Vec2, Window};
 
 use crate::command::{MENUS, shortcuts_of};
 use crate::language::t;
@@ -33,6 +33,8 @@ impl ShortcutsWindow {
             let window = Window::new(t("Keyboard shortcuts")).open(&mut self.is_open);
             let screen = ctx.content_rect().size() - MARGIN;
             let window = window.default_height(HEIGHT).constrain(true);
+            let window = window.pivot(Align2::CENTER_CENTER);
+            let window = window.default_pos(ctx.content_rect().center());
             window.max_size(screen).show(ctx, |ui| {
                 ScrollArea::both().show(ui, content);
             });

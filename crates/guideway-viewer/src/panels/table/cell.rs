@@ -199,9 +199,9 @@ fn attribute_kind(layout: &Layout, of: Table, name: &str) -> FieldKind {
 
 fn direction_named(text: &str) -> Result<Direction, String> {
     match text {
-        "one way" | "one-way" => Ok(Direction::Forward),
-        "both ways" | "two-way" => Ok(Direction::Both),
-        _ => Err(t("choose one of one way, both ways").to_owned()),
+        "one-way" => Ok(Direction::Forward),
+        "two-way" => Ok(Direction::Both),
+        _ => Err(t("choose one of one-way, two-way").to_owned()),
     }
 }
 
@@ -261,7 +261,7 @@ mod tests {
             error.contains("speed of lane 1: fast is no number"),
             "{error}"
         );
-        assert_eq!(edit(Column::Direction, "both ways"), None);
+        assert_eq!(edit(Column::Direction, "two-way"), None);
         assert!(edit(Column::Direction, "up").is_some());
         assert!(edit(Column::Length, "3").unwrap().contains("follows"));
         assert!(edit(Column::Level, "attic").unwrap().contains("attic"));
