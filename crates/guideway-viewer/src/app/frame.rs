@@ -294,13 +294,12 @@ impl App {
     fn take_event(&mut self, event: LayerEvent, index: usize) {
         match event {
             LayerEvent::Appeared(bounds) => {
-                // The first file sets the view; others join it.
                 if index == 0
                     && let Some((center_m, px_per_m)) = self.project.view.take()
                 {
                     self.canvas.camera.look_at(center_m, px_per_m);
-                } else if let (0, Some(bounds)) = (index, bounds) {
-                    self.canvas.camera.fit(bounds);
+                } else if let Some(bounds) = bounds {
+                    self.canvas.camera.fit_file(bounds, index == 0);
                 }
             }
             LayerEvent::Reached(stage) => {

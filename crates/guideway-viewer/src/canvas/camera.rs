@@ -15,6 +15,17 @@ pub(crate) struct Camera {
     is_moving: bool,
     /// Bounds to fit as soon as the canvas has a size.
     pending_fit: Option<Bounds<f64>>,
+    files: Option<FilesFit>,
+}
+
+/// The files that the view was made for.
+#[derive(Clone, Copy, Debug)]
+struct FilesFit {
+    bounds: Bounds<f64>,
+    /// The position afterwards: at another one, the user has moved the view.
+    position: Position,
+    /// False if the view was not made for them.
+    is_shown: bool,
 }
 
 /// Least extent shown by [`Camera::zoom_to`], in meters: about two vehicle lengths.
@@ -38,6 +49,7 @@ impl Camera {
             history: ViewHistory::new(position),
             is_moving: false,
             pending_fit: None,
+            files: None,
         }
     }
 
@@ -53,7 +65,29 @@ impl Camera {
             && let Some(bounds) = self.pending_fit.take()
         {
             self.fit(bounds);
+            if let Some(files) = &mut self.files {
+                files.position = self.position;
+            }
         }
+    }
+
+    /// Shows the bounds of a file that has appeared, together with those of earlier files. Without
+    /// effect once the user has moved the view, unless the file `is_first` in the list.
+    pub(crate) fn fit_file(&mut self, bounds: Bounds<f64>, is_first: bool) {
+        let earlier = self.files.filter(|files| files.position == self.position);
+        let bounds = earlier.map_or(bounds, |files| files.bounds.union(bounds));
+        let is_shown = is_first || earlier.is_some_and(|files| files.is_shown);
+        if self.files.is_some() && earlier.is_none() && !is_first {
+            return;
+        }
+        if is_shown {
+            self.fit(bounds);
+        }
+        self.files = Some(FilesFit {
+            bounds,
+            position: self.position,
+            is_shown,
+        });
     }
 
     /// Moves the world by this many pixels.

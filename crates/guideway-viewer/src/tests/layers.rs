@@ -13,8 +13,16 @@ use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
 
-/// Two files: five lanes, and three lanes 20 m above them. The second one is active.
+/// Two files, both in view.
 fn two_files() -> TestWindow {
+    let mut window = started_with_two_files();
+    window.key(NONE, Key::F);
+    window.wait(|app| app.is_settled());
+    window
+}
+
+/// Two files: five lanes, and three lanes 20 m above them. The second one is active.
+fn started_with_two_files() -> TestWindow {
     let mut above = lanes(3);
     above.paths.transform(
         0..3,
@@ -31,8 +39,6 @@ fn two_files() -> TestWindow {
         let layers = app.files.layers();
         layers.iter().all(|layer| layer.document().is_some())
     });
-    window.key(NONE, Key::F);
-    window.wait(|app| app.is_settled());
     window
 }
 
@@ -157,4 +163,25 @@ fn buttons_of_a_row_move_activate_and_close_files() {
         (layers.len(), layers[0].name()),
         (1, "low.arrow".to_owned())
     );
+}
+
+#[test]
+fn view_shows_all_files_until_the_user_moves_it() {
+    let mut window = started_with_two_files();
+    let sees = |window: &mut TestWindow, y: f64| {
+        let seen = window.app().canvas.camera.view().unwrap().world_bounds();
+        [0.0, 10.0]
+            .iter()
+            .all(|&x| seen.contains(guideway_spline::Point::new(x, y)))
+    };
+    assert!([0.0, 8.0, 20.0, 24.0].iter().all(|&y| sees(&mut window, y)));
+    let at = window.at(5.0, 4.0);
+    window.wheel(at, 6.0);
+    window.harness.run_steps(10);
+    assert!(!sees(&mut window, 20.0));
+    let before = window.app().canvas.camera.view();
+    window.disk.overwrite("far.arrow", lanes(60));
+    window.app().open_any("far.arrow".into());
+    window.wait(|app| app.files.layers().len() == 3 && app.document().is_some());
+    assert_eq!(window.app().canvas.camera.view(), before);
 }
