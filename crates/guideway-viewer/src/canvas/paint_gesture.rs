@@ -35,6 +35,8 @@ pub(super) fn paint_outline(
         }
         Outline::Cells(cells, side) => {
             let mut mesh = Mesh::default();
+            mesh.reserve_triangles(2 * cells.len());
+            mesh.reserve_vertices(4 * cells.len());
             let far = Point::new(*side, *side);
             for &cell in cells {
                 let rect = Rect::from_two_pos(to_screen(cell), to_screen(cell + far));
@@ -46,15 +48,18 @@ pub(super) fn paint_outline(
 }
 
 /// Paints the outline of paths with a glow, which stands out over lines and marks of any color.
+/// Cells are areas, which stand out without.
 pub(super) fn paint_glowing(
     painter: &Painter,
     outline: &Outline,
     stroke: Stroke,
     to_screen: impl Fn(Point<f64>) -> Pos2,
 ) {
-    let glow = stroke.color.gamma_multiply(GLOW_OPACITY);
-    let wide = Stroke::new(stroke.width + GLOW_WIDTH, glow);
-    paint_outline(painter, outline, wide, &to_screen);
+    if let Outline::Lines(_) = outline {
+        let glow = stroke.color.gamma_multiply(GLOW_OPACITY);
+        let wide = Stroke::new(stroke.width + GLOW_WIDTH, glow);
+        paint_outline(painter, outline, wide, &to_screen);
+    }
     paint_outline(painter, outline, stroke, to_screen);
 }
 
