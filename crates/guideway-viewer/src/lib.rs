@@ -8,6 +8,7 @@
 //! | part | owns | folder |
 //! |---|---|---|
 //! | services | the interface to files and methods | `services` |
+//! | partial redraw | the last frame, where a processor draws the window | `partial_redraw` |
 //! | background | one task on another thread | `background` |
 //! | render queue | render threads, pictures, method | `render_queue` |
 //! | editing | document, queued edits, journal, overlay | `editing` |
@@ -43,6 +44,7 @@ mod launch_options;
 mod measure;
 mod network_draft;
 mod panels;
+mod partial_redraw;
 mod preferences;
 mod project;
 mod render_queue;

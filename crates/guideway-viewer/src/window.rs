@@ -12,6 +12,7 @@ use guideway_layout::UserError;
 use crate::app::{App, FIRST_PICTURE_WAIT};
 use crate::background::{RedrawTimer, RepaintGate, RepaintHandle};
 use crate::launch_options::LaunchOptions;
+use crate::partial_redraw::PartialRedraw;
 use crate::preferences::MIN_SIZE;
 use crate::services::{AppServices, WINDOW_ERROR};
 use crate::window_icon::window_icon;
@@ -116,8 +117,8 @@ fn wgpu_options(services: Arc<dyn AppServices>) -> WgpuConfiguration {
     options
 }
 
-/// Shares the device with render methods, notes the graphics adapter, and spares one that is a
-/// processor.
+/// Shares the device with render methods, notes the graphics adapter, and lets one that is a
+/// processor draw no more than what changes.
 fn adapt_to_adapter(app: &mut App, creation: &CreationContext<'_>) {
     let Some(state) = &creation.wgpu_render_state else {
         return;
@@ -131,6 +132,8 @@ fn adapt_to_adapter(app: &mut App, creation: &CreationContext<'_>) {
             style.visuals.text_cursor.blink = false;
             style.animation_time = 0.0;
         });
+        let redraw = PartialRedraw::new(state.clone());
+        creation.egui_ctx.add_plugin(redraw);
     }
 }
 

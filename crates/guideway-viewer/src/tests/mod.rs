@@ -18,6 +18,7 @@ mod levels;
 mod methods;
 mod network;
 mod panels;
+mod partial_redraw;
 mod projects;
 mod properties;
 mod random_input;

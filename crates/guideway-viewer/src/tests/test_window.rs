@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-use eframe::egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2};
+use eframe::egui::{
+    Context, Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2,
+};
 use egui_kittest::Harness;
 use guideway_document::Document;
 use guideway_spline::Point;
@@ -38,18 +40,30 @@ impl TestWindow {
         files: &[&str],
         method: Option<&str>,
     ) -> Self {
+        Self::with_setup(services, disk, files, method, |_| {})
+    }
+
+    /// Opens files after `setup` in the first frame.
+    pub(super) fn with_setup(
+        services: Arc<dyn AppServices>,
+        disk: &Arc<TestServices>,
+        files: &[&str],
+        method: Option<&str>,
+        setup: impl FnOnce(&Context) + 'static,
+    ) -> Self {
         let options = LaunchOptions {
             files: files.iter().map(Into::into).collect(),
             method: method.map(str::to_owned),
             ..LaunchOptions::default()
         };
-        let mut start = Some((services, options));
+        let mut start = Some((services, options, setup));
         let harness = Harness::builder()
             .with_size(Vec2::new(1200.0, 800.0))
             .with_max_steps(64)
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
-                    if let Some((services, options)) = start.take() {
+                    if let Some((services, options, setup)) = start.take() {
+                        setup(ui.ctx());
                         let window = ui.ctx().clone();
                         let repaint = Arc::new(move || window.request_repaint());
                         let mut new = App::launch(repaint, services, options);
