@@ -248,3 +248,19 @@ fn german_window_has_german_menus_panels_and_notices() {
     window.harness.run_steps(3);
     assert!(window.harness.query_by_label("File").is_some());
 }
+
+#[test]
+fn title_names_the_file_and_marks_changes() {
+    let mut window = TestWindow::open(&TestServices::with([]), &[], Some("cpu"));
+    assert_eq!(window.app().title, "Guideway");
+    let mut window = TestWindow::showing(lanes(2));
+    window.harness.run_steps(2);
+    assert_eq!(window.app().title, "site.arrow - Guideway");
+    window.key(Modifiers::COMMAND, Key::A);
+    window.key(NONE, Key::Delete);
+    window.harness.run_steps(2);
+    assert_eq!(window.app().title, "site.arrow * - Guideway");
+    window.key(Modifiers::COMMAND, Key::Z);
+    window.harness.run_steps(2);
+    assert_eq!(window.app().title, "site.arrow - Guideway");
+}

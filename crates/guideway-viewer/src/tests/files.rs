@@ -266,3 +266,23 @@ fn dropped_maps_and_images_become_floor_plans() {
     let plan = window.app().floor_plan.text().to_owned();
     assert_eq!(plan, format!("{page}@page=1,px-per-m=20,offset=0,0"));
 }
+
+#[test]
+fn file_that_vanishes_stays_open_and_is_written_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = folder.path().join("site.arrow");
+    std::fs::write(&site, "").unwrap();
+    let disk = TestServices::with([]);
+    disk.files.lock().unwrap().insert(site.clone(), lanes(4));
+    let mut window = TestWindow::open(&disk, &[site.to_str().unwrap()], Some("cpu"));
+    window.wait(|app| app.files.layers()[0].is_settled());
+    window.key(CTRL, Key::A);
+    window.key(NONE, Key::Delete);
+    std::fs::remove_file(&site).unwrap();
+    disk.files.lock().unwrap().clear();
+    window.wait(|app| has_notice(app, "is gone"));
+    assert!(window.document().is_changed());
+    window.key(CTRL, Key::S);
+    window.wait(|app| has_notice(app, "Saved"));
+    assert!(site.exists() && disk.files.lock().unwrap()[&site].paths.is_empty());
+}

@@ -138,3 +138,18 @@ fn value_of_one_vehicle_type_is_added_and_removed() {
     window.key(CTRL, Key::Z);
     assert_eq!(own(&mut window), Some(0.75));
 }
+
+#[test]
+fn search_counts_the_matches_beyond_those_listed() {
+    let mut window = TestWindow::showing(lanes(100));
+    window.key(CTRL, Key::F);
+    window.harness.event(Event::Text("lane".into()));
+    window.wait(|app| !app.find.more().is_empty());
+    let [more] = window.app().find.more().try_into().unwrap();
+    assert!(
+        more.starts_with("and ") && more.ends_with(" more paths"),
+        "{more}"
+    );
+    window.harness.run_steps(2);
+    assert!(window.harness.query_by_label(&more).is_some());
+}

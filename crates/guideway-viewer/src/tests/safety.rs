@@ -9,6 +9,7 @@ use guideway_spline::Point;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
+use crate::editing::entries_on_disk;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -235,4 +236,50 @@ fn saves_and_closes_on_request() {
     window.wait(|app| app.files.layers().is_empty());
     let files = window.disk.files.lock().unwrap();
     assert!(files[Path::new("site.arrow")].paths.is_empty());
+}
+
+#[test]
+fn exporting_over_a_file_asks_first() {
+    let disk = TestServices::with([("a.arrow", lanes(2)), ("over.png", lanes(1))]);
+    let mut window = TestWindow::open(&disk, &["a.arrow"], Some("cpu"));
+    window.wait(|app| app.document().is_some());
+    window.key(CTRL, Key::E);
+    window.app().dialogs.prompt.open_mut().unwrap().text = "over.png".into();
+    window.key(NONE, Key::Enter);
+    window.wait(|app| app.dialogs.confirm.is_open());
+    window.harness.run_steps(2);
+    assert!(window.disk.pictures.lock().unwrap().is_empty());
+    window.harness.get_by_label("Replace it").click();
+    window.wait(|app| has_notice(app, "over.png"));
+    assert_eq!(window.disk.pictures.lock().unwrap().len(), 1);
+}
+
+#[test]
+fn second_window_of_a_file_leaves_the_journal_to_the_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = folder.path().join("site.arrow");
+    std::fs::write(&site, "").unwrap();
+    let disk = TestServices::with([]);
+    disk.files.lock().unwrap().insert(site.clone(), lanes(3));
+    let open = || {
+        let mut window = TestWindow::open(&disk, &[site.to_str().unwrap()], Some("cpu"));
+        window.wait(|app| app.files.layers()[0].is_settled());
+        window
+    };
+    let mut first = open();
+    first.key(CTRL, Key::A);
+    first.key(NONE, Key::Delete);
+    let left = |site| entries_on_disk(site).unwrap().0.len();
+    let work = left(&site);
+    assert!(work > 0);
+    let mut second = open();
+    second.key(CTRL, Key::A);
+    second.key(NONE, Key::R);
+    second.harness.run_steps(3);
+    assert!(has_notice(second.app(), "open in another window"));
+    assert!(!is_shown(&second, "Recover"), "the work is not its own");
+    assert!(second.document().is_changed());
+    assert_eq!(left(&site), work);
+    drop(second);
+    assert_eq!(left(&site), work, "the first one's work is still there");
 }
