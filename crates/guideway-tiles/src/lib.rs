@@ -15,6 +15,7 @@
 //! | `descent` | finds the blocks of a zoom that paths meet |
 //! | `raster`, `png_tile` | draws a block and cuts it into PNG tiles |
 //! | `vector` | flattens the paths of a tile within an error, and encodes them |
+//! | `gzip` | compresses vector tiles |
 //! | `tiler` | [`Tiler`]: draws tiles by their addresses |
 //! | `pyramid` | makes all tiles of some zooms, with progress and cancellation |
 //! | `archive` | the journal of finished tiles, and the PMTiles file |
@@ -27,6 +28,7 @@ mod archive;
 mod descent;
 mod error;
 mod grid;
+mod gzip;
 mod place;
 mod png_tile;
 mod pyramid;

@@ -13,15 +13,15 @@ const SLOTS: usize = 4 * MAX_COLORS;
 /// The colors of a tile, by order of appearance.
 struct Palette {
     colors: Vec<[u8; 4]>,
-    /// Number of a color plus one, by its hash; 0 is free.
-    slots: [u16; SLOTS],
+    /// A color, and its number plus one, by its hash; 0 is free.
+    slots: [([u8; 4], u16); SLOTS],
 }
 
 impl Palette {
     fn new() -> Self {
         Self {
             colors: Vec::with_capacity(MAX_COLORS),
-            slots: [0; SLOTS],
+            slots: [([0; 4], 0); SLOTS],
         }
     }
 
@@ -32,15 +32,13 @@ impl Palette {
         let mut slot = (hash >> (u32::BITS - SLOTS.ilog2())) as usize;
         loop {
             match self.slots[slot] {
-                0 if self.colors.len() == MAX_COLORS => return None,
-                0 => {
+                (_, 0) if self.colors.len() == MAX_COLORS => return None,
+                (_, 0) => {
                     self.colors.push(color);
-                    self.slots[slot] = self.colors.len() as u16;
+                    self.slots[slot] = (color, self.colors.len() as u16);
                     return Some((self.colors.len() - 1) as u8);
                 }
-                number if self.colors[usize::from(number) - 1] == color => {
-                    return Some((number - 1) as u8);
-                }
+                (known, number) if known == color => return Some((number - 1) as u8),
                 _ => slot = (slot + 1) % SLOTS,
             }
         }
@@ -56,15 +54,19 @@ pub(crate) fn encode<'a>(
     background: [u8; 4],
 ) -> Result<Vec<u8>, EncodingError> {
     let mut palette = Palette::new();
-    let mut bytes = Vec::with_capacity((TILE_PX * TILE_PX) as usize);
-    let mut last = (background, palette.index(background));
-    for &color in rows.clone().flatten() {
-        if color != last.0 {
-            last = (color, palette.index(color));
-        }
-        match last.1 {
-            Some(index) => bytes.push(index),
-            None => return encode_colors(rows),
+    let side = TILE_PX as usize;
+    let mut bytes = vec![0; side * side];
+    let mut last = (background, 0);
+    palette.index(background);
+    for (row, indices) in rows.clone().zip(bytes.chunks_exact_mut(side)) {
+        for (&color, to) in row.iter().zip(indices) {
+            if color != last.0 {
+                match palette.index(color) {
+                    Some(index) => last = (color, index),
+                    None => return encode_colors(rows),
+                }
+            }
+            *to = last.1;
         }
     }
     write(&bytes, Some(&palette.colors))

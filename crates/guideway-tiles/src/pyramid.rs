@@ -8,13 +8,16 @@ use rayon::prelude::*;
 
 use crate::archive::{BlockCounts, Journal};
 use crate::descent::Descent;
+use crate::gzip::Gzip;
 use crate::raster::TileRenderer;
-use crate::vector::{VectorOptions, buffer_m, compress, vector_tile};
+use crate::vector::{TileEncoder, VectorOptions, buffer_m};
 use crate::{Tile, TileError, TileGrid};
 
 /// Zooms from a block to its tiles: 8 x 8 tiles, or 2048 x 2048 pixels, are drawn at once. Larger
 /// ones take more memory, smaller ones visit the scene more often.
 pub(crate) const BLOCK_ZOOMS: u8 = 3;
+/// Least vector tiles that a thread encodes with one encoder, whose memory it clears first.
+const MIN_TILES: usize = 8;
 
 /// Kind of the tiles.
 pub enum Content {
@@ -108,6 +111,8 @@ impl Pyramid<'_> {
         let descent = self.descent(buffer_m(&self.grid, zoom));
         let next_id = journal.next_id();
         let is_left = |tile: Tile| tile.last_id(zoom - tile.z) >= next_id;
+        let (scene, grid) = (&*self.scene, &self.grid);
+        let fields = options.features(scene);
         descent.for_each(zoom - below, &is_left, &mut |block, rows| {
             self.advance(zoom, block, [0.0, 1.0])?;
             let mut tiles = Vec::new();
@@ -115,10 +120,14 @@ impl Pyramid<'_> {
                 tiles.push((tile, rows.to_vec()));
                 Ok::<_, TileError>(())
             })?;
-            let (scene, grid) = (&self.scene, &self.grid);
-            let encoded = tiles.into_par_iter().map(|(tile, rows)| {
-                let made = vector_tile(scene, grid, tile, &rows, options);
-                (tile, made.omitted, made.mvt.map(|mvt| compress(&mvt)))
+            let encoder = || {
+                let encoder = TileEncoder::new(scene, grid, &fields, options);
+                (encoder, Gzip::fast())
+            };
+            let tiles = tiles.into_par_iter().with_min_len(MIN_TILES);
+            let encoded = tiles.map_init(encoder, |(encoder, gzip), (tile, rows)| {
+                let (mvt, omitted) = encoder.encode(tile, &rows);
+                (tile, omitted, mvt.map(|mvt| gzip.compress(mvt)))
             });
             let encoded: Vec<_> = encoded.collect();
             let counts = BlockCounts {

@@ -151,7 +151,10 @@ fn encode_part(
     let background = background.to_u32().to_be_bytes();
     let (width, side) = (frame.size().width() as usize, TILE_PX as usize);
     let rows = (top..top + side).map(|row| &frame.pixels()[row * width + left..][..side]);
-    match rows.clone().flatten().all(|pixel| *pixel == background) {
+    match rows
+        .clone()
+        .all(|row| row == [background; TILE_PX as usize])
+    {
         true => Ok(None),
         false => Ok(Some(encode(rows, background)?)),
     }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::descent::Descent;
 use crate::pyramid::{BLOCK_ZOOMS, Content};
 use crate::raster::TileRenderer;
-use crate::vector::{VectorOptions, buffer_m, vector_tile};
+use crate::vector::{TileEncoder, VectorOptions, buffer_m};
 use crate::{Tile, TileError, TileGrid};
 
 /// A wanted tile and its place in the answer.
@@ -121,10 +121,15 @@ impl Tiler {
                 touched.push((tile, rows.to_vec()));
                 Ok::<_, TileError>(())
             })?;
-        let (scene, grid) = (&self.scene, &self.grid);
+        let (scene, grid) = (&*self.scene, &self.grid);
+        let fields = options.features(scene);
+        let encoder = || TileEncoder::new(scene, grid, &fields, options);
         let encoded = touched
             .into_par_iter()
-            .map(|(tile, rows)| (tile, vector_tile(scene, grid, tile, &rows, options).mvt));
+            .map_init(encoder, |encoder, (tile, rows)| {
+                let (mvt, _) = encoder.encode(tile, &rows);
+                (tile, mvt.map(<[u8]>::to_vec))
+            });
         for (tile, mvt) in encoded.collect::<Vec<_>>() {
             for (_, place) in within(wanted, tile, 0) {
                 drawn[*place].clone_from(&mvt);

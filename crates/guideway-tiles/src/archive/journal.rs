@@ -9,7 +9,7 @@ use super::directory::Entry;
 use crate::{Tile, TileError};
 
 /// First bytes of a journal.
-const MAGIC: &[u8; 8] = b"GWTILES1";
+const MAGIC: &[u8; 8] = b"GWTILES2";
 /// Bytes before the first block.
 const START: u64 = 16;
 /// Numbers of 64 bits before the entries of a block: check sum, zoom, next tile, omitted paths,
@@ -152,7 +152,11 @@ impl Journal {
             block.entries.push((entry, hash));
         }
         block.data_bytes = block.data.len() as u64;
-        self.file.write_all(&block.encode())?;
+        let head = block.head();
+        self.file
+            .write_all(&check(&head, &block.data).to_le_bytes())?;
+        self.file.write_all(&head)?;
+        self.file.write_all(&block.data)?;
         self.end += block.bytes();
         self.add(&block);
         Ok(())
@@ -210,7 +214,8 @@ impl Block {
         Self::head_bytes(self.entries.len()) + self.data_bytes
     }
 
-    fn encode(&self) -> Vec<u8> {
+    /// All before the contents, without the check sum.
+    fn head(&self) -> Vec<u8> {
         let max_count = self.counts.max_count;
         let mut numbers = vec![
             u64::from(self.zoom),
@@ -229,9 +234,7 @@ impl Block {
                 hash[1],
             ]);
         }
-        let mut bytes: Vec<u8> = numbers.into_iter().flat_map(u64::to_le_bytes).collect();
-        bytes.extend_from_slice(&self.data);
-        [&check(&bytes).to_le_bytes()[..], &bytes].concat()
+        numbers.into_iter().flat_map(u64::to_le_bytes).collect()
     }
 
     /// Reads the next block, of a file with some bytes left; `None` behind the last whole one.
@@ -253,7 +256,11 @@ impl Block {
         let mut bytes = head[8..].to_vec();
         let entry_bytes = ENTRY_BYTES * entries as usize;
         bytes.resize(head.len() - 8 + entry_bytes + data as usize, 0);
-        if !read_whole(reader, &mut bytes[head.len() - 8..])? || check(&bytes) != sum {
+        if !read_whole(reader, &mut bytes[head.len() - 8..])? {
+            return Ok(None);
+        }
+        let (numbers, contents) = bytes.split_at(head.len() - 8 + entry_bytes);
+        if check(numbers, contents) != sum {
             return Ok(None);
         }
         let entries = bytes[head.len() - 8..][..entry_bytes].chunks(ENTRY_BYTES);
@@ -300,6 +307,9 @@ fn hash(content: &[u8]) -> [u64; 2] {
     })
 }
 
-fn check(bytes: &[u8]) -> u64 {
-    hash(bytes)[0]
+/// Check sum of a block: of its numbers and its contents.
+fn check(numbers: &[u8], contents: &[u8]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (numbers, contents).hash(&mut hasher);
+    hasher.finish()
 }

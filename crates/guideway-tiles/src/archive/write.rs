@@ -153,8 +153,8 @@ impl Journal {
         });
         if let Some(options) = info.vector {
             let fields = options.fields(info.scene).into_iter();
-            let fields: Map<String, Value> =
-                fields.map(|(name, kind)| (name, json!(kind))).collect();
+            let fields = fields.map(|(name, kind)| (name.to_owned(), json!(kind)));
+            let fields: Map<String, Value> = fields.collect();
             metadata["vector_layers"] = json!([{
                 "id": LAYER,
                 "fields": fields,

@@ -31,13 +31,13 @@ pub(super) struct TileLines {
 }
 
 impl TileLines {
+    /// Lines in the tile of a square.
     pub(super) fn new(square: Bounds<f64>) -> Self {
         let extent = f64::from(EXTENT);
         let buffer = extent * BUFFER_SHARE;
-        let corner = Point::new(square.min.x, square.max.y);
-        Self {
-            corner,
-            units_per_m: extent / square.size().x,
+        let mut lines = Self {
+            corner: Point::default(),
+            units_per_m: 1.0,
             clip_box: Bounds {
                 min: Point::new(-buffer, -buffer),
                 max: Point::new(extent + buffer, extent + buffer),
@@ -47,7 +47,15 @@ impl TileLines {
             starts: Vec::new(),
             commands: Vec::new(),
             is_in_tile: false,
-        }
+        };
+        lines.begin(square);
+        lines
+    }
+
+    /// Goes on to the tile of another square.
+    pub(super) fn begin(&mut self, square: Bounds<f64>) {
+        self.corner = Point::new(square.min.x, square.max.y);
+        self.units_per_m = f64::from(EXTENT) / square.size().x;
     }
 
     /// Removes all lines.
@@ -71,6 +79,13 @@ impl TileLines {
         };
         let is_met = |segment: &[Point<f64>; 4]| segment_hull(segment).intersects(clip_box);
         let mut points = std::mem::take(&mut self.points);
+        points.clear();
+        points.extend(run.iter().map(unit));
+        if points.iter().all(|p| clip_box.contains(*p)) {
+            self.flatten(&points);
+            self.points = points;
+            return;
+        }
         points.clear();
         for p in run.iter().map(unit) {
             points.push(p);
@@ -103,7 +118,7 @@ impl TileLines {
     /// Appends a line, which continues the last one if it begins at its end.
     fn push_line(&mut self, line: [Point<f64>; 2]) {
         self.is_in_tile = true;
-        let [start, end] = line.map(|p| [p.x.round() as i32, p.y.round() as i32]);
+        let [start, end] = line.map(|p| [nearest(p.x), nearest(p.y)]);
         let is_joined = self.vertices.last() == Some(&start);
         if start == end {
             return;
@@ -139,8 +154,17 @@ impl TileLines {
     }
 }
 
+/// The whole number nearest to a small one. Processors without an instruction for rounding make
+/// [`f64::round`] a call.
+fn nearest(number: f64) -> i32 {
+    (number + 0.5_f64.copysign(number)) as i32
+}
+
 /// Clips a line to a box (Liang and Barsky 1984).
 fn clip(a: Point<f64>, b: Point<f64>, within: Bounds<f64>) -> Option<[Point<f64>; 2]> {
+    if within.contains(a) && within.contains(b) {
+        return Some([a, b]);
+    }
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     let along = b - a;
     for (start, step, min, max) in [

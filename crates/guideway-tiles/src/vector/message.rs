@@ -28,16 +28,26 @@ pub(super) fn double(out: &mut Vec<u8>, field: u32, value: f64) {
 
 /// Appends a field with bytes: a text, a message or a packed list.
 pub(super) fn bytes(out: &mut Vec<u8>, field: u32, value: &[u8]) {
-    varint(out, u64::from(field << 3 | 2));
-    varint(out, value.len() as u64);
+    head(out, field, value.len());
     out.extend_from_slice(value);
 }
 
-/// Appends a field with a packed list of whole numbers.
-pub(super) fn packed(out: &mut Vec<u8>, field: u32, values: &[u32]) {
-    let mut list = Vec::with_capacity(2 * values.len());
+/// Appends what is before the bytes of a field.
+pub(super) fn head(out: &mut Vec<u8>, field: u32, length: usize) {
+    varint(out, u64::from(field << 3 | 2));
+    varint(out, length as u64);
+}
+
+/// Bytes that a whole number takes.
+pub(super) fn number_bytes(value: u64) -> usize {
+    (value | 1).ilog2() as usize / 7 + 1
+}
+
+/// Appends a field with a packed list of whole numbers, by way of a list of bytes.
+pub(super) fn packed(out: &mut Vec<u8>, field: u32, values: &[u32], list: &mut Vec<u8>) {
+    list.clear();
     values
         .iter()
-        .for_each(|&value| varint(&mut list, u64::from(value)));
-    bytes(out, field, &list);
+        .for_each(|&value| varint(list, u64::from(value)));
+    bytes(out, field, list);
 }

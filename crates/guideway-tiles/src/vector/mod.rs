@@ -4,20 +4,20 @@
 //! | module | does |
 //! |---|---|
 //! | `lines` | flattens the curves of a path and clips them to a tile |
-//! | `layer` | writes features and their attributes |
+//! | `field` | the columns whose values features carry |
+//! | `layer`, `value_table` | writes features and their attributes, equal values once |
 //! | `extent` | the units of a tile |
 //! | `message` | the encoding of protocol buffers |
 
 mod extent;
+mod field;
 mod layer;
 mod lines;
 mod message;
+mod value_table;
 
 use std::cmp::Reverse;
-use std::io::Write;
 
-use flate2::Compression;
-use flate2::write::GzEncoder;
 use guideway_layout::Values;
 use guideway_scene::Scene;
 use guideway_spline::Bounds;
@@ -26,11 +26,10 @@ use crate::descent::Descent;
 use crate::{Tile, TileGrid};
 use extent::BUFFER_SHARE;
 pub use extent::EXTENT;
+use field::Field;
+pub(crate) use layer::LAYER;
 use layer::Layer;
 use lines::TileLines;
-
-/// Name of the layer.
-pub(crate) const LAYER: &str = "paths";
 
 /// Content of vector tiles.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,11 +53,11 @@ impl Default for VectorOptions {
 
 impl VectorOptions {
     /// Names and types of the fields, as the metadata of an archive has them.
-    pub(crate) fn fields(&self, scene: &Scene) -> Vec<(String, &'static str)> {
+    pub(crate) fn fields<'a>(&self, scene: &'a Scene) -> Vec<(&'a str, &'static str)> {
         let layout = scene.layout();
-        let mut fields = vec![("id".to_owned(), "String")];
+        let mut fields = vec![("id", "String")];
         if !layout.levels.is_empty() {
-            fields.push(("level".to_owned(), "String"));
+            fields.push(("level", "String"));
         }
         for name in layout.paths.column_names() {
             let is_wanted = |columns: &Vec<String>| columns.iter().any(|wanted| wanted == name);
@@ -70,10 +69,18 @@ impl VectorOptions {
                 Some(Values::Json(_)) | None => continue,
             };
             if self.columns.as_ref().is_none_or(is_wanted) && name != "id" && name != "level" {
-                fields.push((name.to_owned(), kind));
+                fields.push((name, kind));
             }
         }
         fields
+    }
+
+    /// The fields of features.
+    pub(crate) fn features<'a>(&self, scene: &'a Scene) -> Vec<Field<'a>> {
+        let names = self.fields(scene).into_iter();
+        names
+            .map(|(name, _)| Field::new(scene.layout(), name))
+            .collect()
     }
 }
 
@@ -100,7 +107,13 @@ pub fn draw_vector_tile(
         reach_m,
     };
     let rows = descent.touching(tile, scene.draw_order());
-    vector_tile(scene, grid, tile, &rows, options)
+    let fields = options.features(scene);
+    let mut encoder = TileEncoder::new(scene, grid, &fields, options);
+    let (mvt, omitted) = encoder.encode(tile, &rows);
+    VectorTile {
+        mvt: mvt.map(<[u8]>::to_vec),
+        omitted,
+    }
 }
 
 /// Width of the buffer around the tiles of a zoom, in meters of the grid.
@@ -108,33 +121,52 @@ pub(crate) fn buffer_m(grid: &TileGrid, zoom: u8) -> f64 {
     BUFFER_SHARE * grid.side() / f64::from(zoom).exp2()
 }
 
-/// Encodes a tile. `rows` are the paths that may touch it, in draw order.
-pub(crate) fn vector_tile(
-    scene: &Scene,
-    grid: &TileGrid,
-    tile: Tile,
-    rows: &[u32],
-    options: &VectorOptions,
-) -> VectorTile {
-    let longest = longest(scene, rows, options.max_paths);
-    let shown = longest.as_deref().unwrap_or(rows);
-    let mut omitted = (rows.len() - shown.len()) as u64;
-    let fields = options.fields(scene);
-    let names: Vec<&str> = fields.iter().map(|(name, _)| name.as_str()).collect();
-    let mut layer = Layer::new(LAYER, &names);
-    let mut lines = TileLines::new(grid.bounds(tile));
-    for &row in shown {
-        let path = scene.layout().paths.get(row as usize);
-        lines.clear();
-        path.runs().for_each(|run| lines.push(run));
-        match lines.commands() {
-            Some(commands) => layer.push(scene.layout(), path, commands),
-            None => omitted += u64::from(lines.is_in_tile()),
+/// Encodes tiles of a scene, one after the other, in the same memory.
+pub(crate) struct TileEncoder<'a> {
+    scene: &'a Scene,
+    grid: &'a TileGrid,
+    fields: &'a [Field<'a>],
+    max_paths: usize,
+    lines: TileLines,
+    layer: Layer,
+}
+
+impl<'a> TileEncoder<'a> {
+    /// An encoder of features with some fields; see [`VectorOptions::features`].
+    pub(crate) fn new(
+        scene: &'a Scene,
+        grid: &'a TileGrid,
+        fields: &'a [Field<'a>],
+        options: &VectorOptions,
+    ) -> Self {
+        Self {
+            scene,
+            grid,
+            fields,
+            max_paths: options.max_paths,
+            lines: TileLines::new(grid.bounds(Tile::WORLD)),
+            layer: Layer::default(),
         }
     }
-    VectorTile {
-        mvt: layer.finish(),
-        omitted,
+
+    /// Encodes a tile. `rows` are the paths that may touch it, in draw order. Returns the bytes, if
+    /// the tile shows anything, and the number of paths that it leaves out.
+    pub(crate) fn encode(&mut self, tile: Tile, rows: &[u32]) -> (Option<&[u8]>, u64) {
+        let longest = longest(self.scene, rows, self.max_paths);
+        let shown = longest.as_deref().unwrap_or(rows);
+        let mut omitted = (rows.len() - shown.len()) as u64;
+        self.layer.clear();
+        self.lines.begin(self.grid.bounds(tile));
+        for &row in shown {
+            let path = self.scene.layout().paths.get(row as usize);
+            self.lines.clear();
+            path.runs().for_each(|run| self.lines.push(run));
+            match self.lines.commands() {
+                Some(commands) => self.layer.push(self.fields, path, commands),
+                None => omitted += u64::from(self.lines.is_in_tile()),
+            }
+        }
+        (self.layer.finish(self.fields), omitted)
     }
 }
 
@@ -158,13 +190,6 @@ fn longest(scene: &Scene, rows: &[u32], max: usize) -> Option<Vec<u32>> {
     let mut kept: Vec<usize> = all.into_iter().map(|(_, i)| i).collect();
     kept.sort_unstable();
     Some(kept.into_iter().map(|i| rows[i]).collect())
-}
-
-/// Compresses a tile, as all programs expect of vector tiles.
-pub(crate) fn compress(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
-    let written = encoder.write_all(bytes).and_then(|()| encoder.finish());
-    written.expect("a vector takes all bytes")
 }
 
 #[cfg(test)]

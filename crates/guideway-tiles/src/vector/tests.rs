@@ -130,6 +130,24 @@ fn lines(commands: &[u64]) -> Vec<Vec<[i64; 2]>> {
     all
 }
 
+fn vector_tile(
+    scene: &Scene,
+    grid: &TileGrid,
+    tile: Tile,
+    rows: &[u32],
+    options: &VectorOptions,
+) -> VectorTile {
+    let fields = options.features(scene);
+    let mut encoder = TileEncoder::new(scene, grid, &fields, options);
+    // One of before leaves no trace.
+    encoder.encode(Tile::WORLD, rows);
+    let (mvt, omitted) = encoder.encode(tile, rows);
+    VectorTile {
+        mvt: mvt.map(<[u8]>::to_vec),
+        omitted,
+    }
+}
+
 /// A curve through the tiles of a square of 64 m, a short line, and one of 1 mm.
 fn scene() -> (Scene, TileGrid) {
     let mut layout = Layout::default();
