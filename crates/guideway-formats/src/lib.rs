@@ -89,6 +89,6 @@ pub use output::{
 };
 pub use read::{read_bytes, read_file, read_stream};
 pub use sniff::sniff;
-pub use source::{Progress, ReadOptions};
+pub use source::{BYTES_READ, FILE_BYTES, Progress, ReadOptions};
 pub use target::Target;
 pub use write_error::{WriteError, WriteProblem};

@@ -4,6 +4,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use guideway_layout::{Layout, Limits};
+use guideway_spline::Bounds;
 
 use crate::{Format, Problem, ReadError};
 
@@ -16,7 +17,17 @@ pub struct ReadOptions<'a> {
     pub formats: Option<&'a [Format]>,
     /// Observer of the progress, which may cancel the read.
     pub progress: Option<&'a dyn Progress>,
+    /// Box in meters whose paths are wanted; `None` for all. A reader may leave out paths whose
+    /// control points all lie beyond it: that of Arrow files of paths skips the record batches
+    /// whose extents miss it. If it does, the counts of the provenance have the
+    /// [`BYTES_READ`](crate::BYTES_READ).
+    pub area: Option<Bounds<f64>>,
 }
+
+/// Count in the provenance of a layout that was read in part: the bytes of its file that were read.
+pub const BYTES_READ: &str = "bytes read";
+/// Count in the provenance of a layout that was read in part: the bytes of its file.
+pub const FILE_BYTES: &str = "bytes";
 
 /// Observes a long read or write, and may cancel a read.
 pub trait Progress: Sync {

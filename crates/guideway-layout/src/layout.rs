@@ -257,6 +257,12 @@ impl Provenance {
         self.text.clone().or_else(read_again)
     }
 
+    /// A count by its name.
+    pub fn count(&self, name: &str) -> Option<u64> {
+        let found = self.counts.iter().find(|(own, _)| own == name);
+        found.map(|(_, count)| *count)
+    }
+
     /// Returns `true` if all formats of the files are among these.
     pub(crate) fn is_all_of(&self, formats: &[&str]) -> bool {
         let mut own = self.format.split(" + ");

@@ -8,6 +8,7 @@ use arrow_schema::Schema;
 use guideway_layout::Place;
 
 use super::catch_decode_panic::catch_decode_panic;
+use super::extents::{EXTENTS_KEY, Extent, extents};
 use super::problems::damaged;
 use crate::Problem;
 use crate::input::Input;
@@ -35,9 +36,16 @@ pub(super) struct Container {
 pub(super) struct Message {
     header: Range<usize>,
     pub(super) body: Range<usize>,
+    /// Extent of a record batch, if the footer states it.
+    pub(super) extent: Option<Extent>,
 }
 
 impl Message {
+    /// Bytes of the header and the body.
+    pub(super) fn bytes(&self) -> u64 {
+        (self.header.len() + self.body.len()) as u64
+    }
+
     /// Reads the flatbuffer.
     pub(super) fn header(&self, input: &Input<'_>) -> Result<Vec<u8>, Problem> {
         let mut header = input.bytes(self.header.clone())?;
@@ -93,28 +101,41 @@ fn open_file(input: &Input<'_>) -> Result<Container, Problem> {
     let schema = footer
         .schema()
         .ok_or_else(|| damaged("footer", "the schema is missing"))?;
-    let container = Container {
+    Ok(Container {
         schema: convert_schema(schema)?,
         messages: file_messages(&footer, footer_at)?,
-    };
-    input.read_ahead();
-    Ok(container)
+    })
 }
 
 fn file_messages(footer: &Footer<'_>, footer_at: usize) -> Result<Vec<Message>, Problem> {
     let dictionaries = footer.dictionaries().into_iter().flatten();
     let batches = footer.recordBatches().into_iter().flatten();
     let mut messages = Vec::new();
+    let mut extents = dictionaries.clone().map(|_| None).chain(extents_of(footer));
     for (index, block) in dictionaries.chain(batches).enumerate() {
         let place = || format!("block {index}");
         let (header, end) = block_range(block)
             .filter(|(header, end)| header.start >= LEADER_BYTES && *end <= footer_at)
             .ok_or_else(|| damaged(place(), describe_block(block)))?;
-        let body = header.end..end;
-        messages.push(Message { header, body });
+        messages.push(Message {
+            body: header.end..end,
+            header,
+            extent: extents.next().flatten(),
+        });
     }
     check_disjoint(&messages)?;
     Ok(messages)
+}
+
+/// Returns the extents of the record batches that the metadata of the footer states; none if they
+/// are not those of these batches.
+fn extents_of(footer: &Footer<'_>) -> impl Iterator<Item = Option<Extent>> {
+    let mut metadata = footer.custom_metadata().into_iter().flatten();
+    let text = metadata.find(|entry| entry.key() == Some(EXTENTS_KEY));
+    let text = text.and_then(|entry| entry.value());
+    let batches = footer.recordBatches().map_or(0, |batches| batches.len());
+    let all = text.and_then(|text| extents(text, batches));
+    all.into_iter().flatten()
 }
 
 /// Returns the range of the header with its length prefix, and the end of the body.
@@ -149,6 +170,7 @@ fn check_disjoint(messages: &[Message]) -> Result<(), Problem> {
 }
 
 fn open_stream(input: &Input<'_>) -> Result<Container, Problem> {
+    // Its messages are found by reading all.
     input.read_ahead();
     let mut cursor = StreamCursor { input, at: 0 };
     let (_, first) = cursor
@@ -193,7 +215,11 @@ impl StreamCursor<'_> {
             return Ok(None);
         }
         let header = start..self.take(header_len)?.end;
-        let mut message = Message { header, body: 0..0 };
+        let mut message = Message {
+            header,
+            body: 0..0,
+            extent: None,
+        };
         let header = message.header(self.input)?;
         let body_len = catch_decode_panic(&message.place(), || {
             arrow_ipc::root_as_message(&header)

@@ -70,8 +70,9 @@ impl Source<'_> {
                 Arc::new(of_paths(layout, rows, color).collect::<UInt32Array>())
             }
             Self::Rank(column) => {
-                let rank = |path: PathRef<'_>| Some(column[path.row()]);
-                Arc::new(of_paths(layout, rows, rank).collect::<Int32Array>())
+                // Of all rows of a path: the column has no nulls.
+                let ranks = rows.iter().map(|row| column[row.index]);
+                Arc::new(Int32Array::from_iter_values(ranks))
             }
             Self::StartNode => {
                 Arc::new(of_paths(layout, rows, PathRef::start_node).collect::<UInt32Array>())

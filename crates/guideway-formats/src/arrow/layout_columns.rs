@@ -135,6 +135,10 @@ impl Source<'_> {
             Self::LevelNumbers => (LEVEL, DataType::UInt32),
             Self::Width => (WIDTH, DataType::Float32),
             Self::Color(_) => (COLOR, DataType::UInt32),
+            // All have one: by it, a part of the paths keeps its draw order.
+            Self::Rank(_) if version == PATHS_VERSION => {
+                return Field::new(RANK, DataType::Int32, false);
+            }
             Self::Rank(_) => (RANK, DataType::Int32),
             Self::StartNode => (START_NODE, DataType::UInt32),
             Self::EndNode => (END_NODE, DataType::UInt32),

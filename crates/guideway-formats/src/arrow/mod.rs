@@ -7,14 +7,14 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | open | file | schema, ranges of messages | `container`, `schema`, `column_names`, `column_types`, `time_zones` |
+//! | open | file | schema, ranges and extents of messages | `container`, `extents`, `schema`, `column_names`, `column_types`, `time_zones` |
 //! | decode | messages | record batches, control polygons | `decode`, `message_body`, `lossy_texts`, `control_polygons`, `point_items`, `fault` |
 //! | sort | record batches | kinds of their rows | `element`, `row_kinds` |
 //! | assemble | control polygons of paths | geometry, drawn and refused rows | `assemble`, `point_store`, `batch`, `numbering` |
 //! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `cell_formatter`, `cell_text`, `cell_times`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
 //! | paths | columns of paths | style and network | `path_columns`, `path_ids`, `style_columns`, `network_columns`, `written_curves` |
 //! | elements | rows of other kinds | their tables | `elements` |
-//! | read | all of these, batch by batch on several threads | layout | `read`, `read_batches`, `reading` |
+//! | read | all of these, batch by batch on several threads | layout | `read`, `part`, `read_batches`, `reading` |
 //! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems` |
 //! | write | layout, or rows | batches, file, losses | `batches`, `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file` |
 
@@ -38,6 +38,7 @@ mod control_polygons;
 mod decode;
 mod element;
 mod elements;
+mod extents;
 mod fault;
 mod id_column;
 mod layout_arrays;
@@ -50,6 +51,7 @@ mod lossy_texts;
 mod message_body;
 mod network_columns;
 mod numbering;
+mod part;
 mod path_columns;
 mod path_ids;
 mod point_items;

@@ -18,6 +18,7 @@ use super::decode::{Decoded, Decoder};
 use super::element::Element;
 use super::elements::ElementTables;
 use super::id_column;
+use super::part::Part;
 use super::path_columns::PathColumns;
 use super::reading::Reading;
 use super::row_kinds::RowKinds;
@@ -44,6 +45,10 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     let container = container::open(input)?;
     let schema = &container.schema;
     let columns = table_columns(schema, &mut diagnostics)?;
+    let part = Part::of(source, input, &container, &columns);
+    if part.is_none() {
+        input.read_ahead();
+    }
     let budget = Budget::for_file(input.len());
     let reading = Reading {
         schema,
@@ -56,19 +61,29 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
         decoder: Decoder::new(input, Arc::new(schema.clone()), columns.control_points),
         messages: container.messages.iter(),
         total: container.messages.len(),
+        part: part.as_ref(),
         budget: &budget,
     };
     let mut next = batches.next()?;
     let mut reader = TableReader::new(input, reading, diagnostics);
-    if let Some(first) = &next {
-        reader.reserve(first, 1 + batches.messages.len());
+    while let Some(Step::Skipped(rows)) = next {
+        reader.skip(rows);
+        next = batches.next()?;
     }
-    while let Some(batch) = next {
-        let (added, decoded) = rayon::join(|| reader.add(&batch), || batches.next());
+    if let Some(Step::Batch(first)) = &next {
+        let left = batches.messages.clone();
+        reader.reserve(first, 1 + left.filter(|next| !batches.skips(next)).count());
+    }
+    while let Some(step) = next {
+        let (added, decoded) = rayon::join(|| reader.take(&step), || batches.next());
         added?;
         next = decoded?;
     }
-    reader.into_layout(source.name)
+    let mut layout = reader.into_layout(source.name)?;
+    if let Some(part) = part {
+        part.count(&mut layout);
+    }
+    Ok(layout)
 }
 
 /// Finds the columns of a table, and reports what is odd about them.
@@ -81,17 +96,30 @@ pub(super) fn table_columns(
     ColumnRoles::find(schema, version, diagnostics)
 }
 
+/// The next rows of a table.
+enum Step {
+    Batch(Decoded),
+    /// A number of rows beyond the area.
+    Skipped(usize),
+}
+
 /// Decoded batches of a file, in order.
 struct BatchStream<'a> {
     source: Source<'a>,
     decoder: Decoder<'a>,
     messages: slice::Iter<'a, Message>,
     total: usize,
+    part: Option<&'a Part>,
     budget: &'a Budget,
 }
 
 impl BatchStream<'_> {
-    fn next(&mut self) -> Result<Option<Decoded>, Problem> {
+    /// Returns `true` if a message is a record batch beyond the area.
+    fn skips(&self, message: &Message) -> bool {
+        self.part.is_some_and(|part| part.skips(message))
+    }
+
+    fn next(&mut self) -> Result<Option<Step>, Problem> {
         while let Some(message) = self.messages.next() {
             if let Some(progress) = self.source.options.progress {
                 let done = self.total - self.messages.len() - 1;
@@ -100,8 +128,11 @@ impl BatchStream<'_> {
                     return Err(Problem::Cancelled);
                 }
             }
+            if let Some(extent) = message.extent.filter(|_| self.skips(message)) {
+                return Ok(Some(Step::Skipped(extent.rows)));
+            }
             if let Some(batch) = self.decoder.decode(message, self.budget)? {
-                return Ok(Some(batch));
+                return Ok(Some(Step::Batch(batch)));
             }
         }
         Ok(None)
@@ -161,6 +192,22 @@ impl<'a> TableReader<'a> {
         let rows = rows.min(file_bytes / row_bytes);
         self.assembler.reserve(polygons, points, rows);
         self.paths = PathColumns::new(self.reading, rows);
+    }
+
+    fn take(&mut self, step: &Step) -> Result<(), Problem> {
+        match step {
+            Step::Batch(decoded) => self.add(decoded),
+            Step::Skipped(rows) => {
+                self.skip(*rows);
+                Ok(())
+            }
+        }
+    }
+
+    /// Counts rows that are not read.
+    fn skip(&mut self, rows: usize) {
+        self.assembler.skip(rows);
+        self.last_id = None;
     }
 
     /// Assembles the curves of a batch, which frees their buffers, while the columns take previous

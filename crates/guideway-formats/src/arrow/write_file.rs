@@ -2,10 +2,12 @@
 
 use std::io::Write;
 
-use crate::write_error::WriteProblem;
 use arrow_array::RecordBatch;
 use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
 use arrow_schema::SchemaRef;
+
+use super::extents::{EXTENTS_KEY, Extents};
+use crate::write_error::WriteProblem;
 
 /// Rows per record batch.
 pub(super) const BATCH_ROWS: usize = 16_384;
@@ -18,6 +20,7 @@ pub(super) const BATCH_TEXT_BYTES: usize = 64 << 20;
 pub(super) struct IpcFile<W: Write> {
     writer: FileWriter<W>,
     schema: SchemaRef,
+    extents: Extents,
 }
 
 impl<W: Write> IpcFile<W> {
@@ -28,6 +31,7 @@ impl<W: Write> IpcFile<W> {
         Ok(Self {
             writer: FileWriter::try_new_with_options(out, &schema, options)?,
             schema,
+            extents: Extents::default(),
         })
     }
 
@@ -38,11 +42,14 @@ impl<W: Write> IpcFile<W> {
 
     /// Appends a batch.
     pub(super) fn write(&mut self, batch: &RecordBatch) -> Result<(), WriteProblem> {
+        self.extents.push(batch);
         Ok(self.writer.write(batch)?)
     }
 
-    /// Ends the file. Returns the stream.
-    pub(super) fn finish(self) -> Result<W, WriteProblem> {
+    /// Ends the file, with the extents of its batches. Returns the stream.
+    pub(super) fn finish(mut self) -> Result<W, WriteProblem> {
+        self.writer
+            .write_metadata(EXTENTS_KEY, self.extents.into_text());
         Ok(self.writer.into_inner()?)
     }
 }

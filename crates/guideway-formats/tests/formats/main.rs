@@ -4,6 +4,7 @@
 
 mod arrow;
 mod arrow_network;
+mod arrow_part;
 mod arrow_rows;
 mod arrow_tables;
 mod arrow_types;

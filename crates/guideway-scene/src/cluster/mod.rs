@@ -13,6 +13,7 @@
 //! | `edit`         | edited or appended rows       | updated bounds, the clusters that changed   |
 //! | `dirty`        | cluster numbers               | [`DirtyClusters`]: a set of clusters        |
 //! | `boxes`        | a box per row                 | [`BoxIndex`]: rows that meet a query box    |
+//! | `sort_paths`   | a layout                      | [`sort_paths`]: its paths in Hilbert order  |
 //!
 //! ```text
 //!   rows in file order        Hilbert order            clusters of 64 rows
@@ -30,6 +31,7 @@ mod edit;
 mod hilbert_sort;
 mod index;
 mod order;
+mod sort_paths;
 
 pub use bounds::{ClusterBounds, MemberHull};
 pub use boxes::BoxIndex;
@@ -38,3 +40,4 @@ pub use edit::{AppliedEdit, PendingEdit, RowHulls};
 pub use hilbert_sort::hilbert_order;
 pub use index::ClusterIndex;
 pub use order::{CLUSTER_LEN, ClusterOrder, Members};
+pub use sort_paths::sort_paths;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use guideway::formats::Target;
 use guideway::layout::{UserError, shown_path, shown_text};
+use guideway::scene::cluster::sort_paths;
 use serde_json::json;
 
 use super::error::{Exit, usage_error};
@@ -33,6 +34,10 @@ pub(crate) struct Args {
     /// Format of the output
     #[arg(long, value_name = "FORMAT", value_parser = target_parser())]
     to: Option<Target>,
+    /// Sort the paths along a Hilbert curve, and keep their draw order as ranks: `render --center
+    /// --scale` then reads only the part of an Arrow file near its view
+    #[arg(long)]
+    hilbert: bool,
 }
 
 impl Args {
@@ -67,7 +72,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let output = LayoutOutput::new(&path, args.to, paths, out)?;
     // Reading, merging, writing.
     plan(inputs.len(), &[5.0, 0.1, 5.0]);
-    let (layout, read_ms) = input::read_all(&inputs, out)?;
+    let (mut layout, read_ms) = input::read_all(&inputs, out)?;
+    if args.hilbert {
+        sort_paths(&mut layout);
+    }
     let written = output.write(&layout, output.target(&layout)?, out)?;
     let (write_ms, bytes) = (written.ms, written.bytes);
     let body = json!({

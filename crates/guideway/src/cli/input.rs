@@ -9,7 +9,7 @@ use clap::builder::{OsStringValueParser, TypedValueParser};
 use guideway::SaveError;
 use guideway::formats::{ReadError, ReadOptions, is_same_file, read_file, read_stream};
 use guideway::layout::{Layout, Limits, UserError, merge, near_names, shown_path};
-use guideway::spline::{Affine, Point};
+use guideway::spline::{Affine, Bounds, Point};
 
 use super::error::{same_file_error, usage_error};
 use super::output::{Output, is_stdout};
@@ -96,6 +96,11 @@ impl Input {
         ))
     }
 
+    /// Returns `true` if it has a placement.
+    pub(crate) fn is_placed(&self) -> bool {
+        self.transform().is_some()
+    }
+
     /// The transform of the placement; `None` without one.
     fn transform(&self) -> Option<Affine> {
         let Self {
@@ -129,8 +134,30 @@ fn pairs(keys: &str) -> Vec<(&str, String)> {
 
 /// Reads a layout and shows the progress. Returns it and the duration in milliseconds.
 pub(crate) fn read(path: &Path, out: &Output) -> Result<(Layout, f64), UserError> {
+    read_within(path, None, out)
+}
+
+/// As [`read`], the paths in an area only where the file allows that; see [`ReadOptions::area`].
+pub(crate) fn read_area(
+    input: &Input,
+    area: Option<Bounds<f64>>,
+    out: &Output,
+) -> Result<(Layout, f64), UserError> {
+    input.check_keys()?;
+    read_within(&input.path, area, out)
+}
+
+fn read_within(
+    path: &Path,
+    area: Option<Bounds<f64>>,
+    out: &Output,
+) -> Result<(Layout, f64), UserError> {
     let progress = out.progress(format!("reading {}", shown_path(path)));
-    let layout = read_input(path, &limits::read_options(Some(&progress)))?;
+    let options = ReadOptions {
+        area,
+        ..limits::read_options(Some(&progress))
+    };
+    let layout = read_input(path, &options)?;
     Ok((layout, progress.finish()))
 }
 

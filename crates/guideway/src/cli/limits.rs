@@ -153,6 +153,7 @@ pub(crate) fn read_options_within(
         limits,
         formats: accepted().formats.as_deref(),
         progress,
+        area: None,
     }
 }
 

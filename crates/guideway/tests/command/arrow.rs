@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{command, has_keys, json, names_in, site, stderr, stdout};
+use crate::support::{command, has_keys, json, names_in, read_png, site, stderr, stdout};
 
 fn generate(output: &Path, args: &[&str]) -> std::process::Output {
     let mut all = command();
@@ -250,4 +250,80 @@ fn ctrl_c_stops_at_once_and_removes_the_unfinished_file() {
     assert!(stopped.elapsed() < Duration::from_secs(10));
     assert_eq!(names_in(folder.path()), ["a.arrow"]);
     assert_eq!(fs::read_to_string(&old).unwrap(), "as it was");
+}
+
+#[test]
+fn a_view_of_a_sorted_file_reads_a_part_and_draws_the_same_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    let [first, sorted] = ["d2.arrow", "sorted.arrow"].map(file);
+    let generated = generate(&first, &["d2", "--paths", "70000", "--seed", "3"]);
+    assert!(generated.status.success(), "{}", stderr(&generated));
+    let mut convert = command();
+    convert
+        .arg("convert")
+        .args([&first, &sorted])
+        .arg("--hilbert");
+    let converted = convert.output().unwrap();
+    assert!(converted.status.success(), "{}", stderr(&converted));
+
+    let render = |input: &Path, output: &Path, args: &[&str]| {
+        let mut all = command();
+        all.arg("render").arg(input).arg("-o").arg(output);
+        let is_exact = !args.contains(&"--method");
+        let method = if is_exact {
+            &["--method", "oracle"][..]
+        } else {
+            &[]
+        };
+        all.args(["--size", "90x60"]).args(method).args(args);
+        json(&all.arg("--json").output().unwrap(), "render")
+    };
+    let whole = render(&first, &file("all.png"), &["--method", "cpu"]);
+    let view = &whole["view"];
+    let number = |key: &str, axis: usize| view[key][axis].as_f64().unwrap();
+    let side = number("max_m", 1) - number("min_m", 1);
+    let center = [0, 1].map(|axis| (number("center_m", axis) + 0.2 * side).to_string());
+    let center = center.join(",");
+    let scale = (20.0 * view["px_per_m"].as_f64().unwrap()).to_string();
+    let view = ["--center", center.as_str(), "--scale", scale.as_str()];
+    for (style, is_read_in_part) in [
+        (&[][..], true),
+        (&["--shade", "density"], true),
+        (&["--grid", "--method", "cpu"], true),
+        (&["--arrows"], false),
+        (&["--color-by", "max_speed"], false),
+    ] {
+        let args = [&view[..], style].concat();
+        let pictures = ["a.png", "b.png"].map(file);
+        let reports = [
+            render(&first, &pictures[0], &args),
+            render(&sorted, &pictures[1], &args),
+        ];
+        let [a, b] = pictures.map(|picture| read_png(&picture).2);
+        match style {
+            // Arrows give way to those of paths of lower numbers.
+            ["--arrows"] => {}
+            // It approximates curves that go on from each other as one, and finds them among some
+            // neighbors: 20 of 255 steps where a part of the paths has other neighbors.
+            [.., "cpu"] => {
+                let steps = a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b));
+                let most = steps.max().unwrap_or_default();
+                assert!(most < 32, "{most} steps");
+            }
+            _ => assert!(a == b, "{style:?}"),
+        }
+        let drawn = |report: &serde_json::Value| report["paths"]["drawn"].as_u64().unwrap();
+        assert!(drawn(&reports[0]) > 100, "{}", reports[0]);
+        if !style.contains(&"cpu") {
+            assert_eq!(drawn(&reports[0]), drawn(&reports[1]), "{style:?}");
+        }
+        let read = &reports[1]["read"];
+        assert_eq!(read.is_object(), is_read_in_part, "{style:?}: {read}");
+        if is_read_in_part {
+            let bytes = |key: &str| read[key].as_u64().unwrap();
+            assert_eq!(bytes("of_bytes"), fs::metadata(&sorted).unwrap().len());
+            assert!(2 * bytes("bytes") < bytes("of_bytes"), "{read}");
+        }
+    }
 }

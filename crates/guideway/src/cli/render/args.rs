@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use guideway::AUTO;
 use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport, suitable_widths};
 use guideway::layout::{Layout, UserError};
-use guideway::scene::{Budget, ColorBy, Scene, SceneOptions, Shading, Style};
+use guideway::scene::{Budget, ColorBy, LineRule, Scene, SceneOptions, Shading, Style, View};
+use guideway::spline::Bounds;
 
 use super::decoration_args::DecorationArgs;
 use super::style_args::StyleArgs;
@@ -68,6 +69,9 @@ struct ResourceArgs {
     #[arg(long, value_name = "MB")]
     memory: Option<u64>,
 }
+
+/// Least half margin around a view, in pixels, whose paths are read: for antialiasing.
+const MARGIN_PX: f64 = 32.0;
 
 /// The value of `--level` that shows all levels side by side.
 const EACH: &str = "each";
@@ -169,6 +173,23 @@ impl Args {
                 threads: self.resources.threads,
             },
         })
+    }
+
+    /// The box, in meters, of the paths that a picture may show; `None` if it depends on all paths.
+    pub(super) fn area(&self, options: &RenderOptions) -> Option<Bounds<f64>> {
+        let depends_on_all = self.style.color_by.is_some()
+            || self.view.level.is_some()
+            || self.view.envelope.is_some()
+            || self.decorations.depends_on_all();
+        let (center, px_per_m) = options.viewport.center_m.zip(options.viewport.px_per_m)?;
+        let view = View::new(options.viewport.size, center, px_per_m).ok()?;
+        // Widths that suit the view may replace those of the style.
+        let widest_px = [options.style.line_rule, LineRule::default()]
+            .into_iter()
+            .flat_map(|rule| [None, Some(f32::MAX)].map(|own| rule.radius_px(own, px_per_m)))
+            .fold(MARGIN_PX, f64::max);
+        let reach_m = 2.0 * widest_px / px_per_m;
+        (!depends_on_all).then(|| view.world_bounds().inflated(reach_m))
     }
 
     /// The picture that the options describe.

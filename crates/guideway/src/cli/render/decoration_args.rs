@@ -62,6 +62,12 @@ impl DecorationArgs {
         ]
     }
 
+    /// Returns `true` if they depend on paths beyond the view: routes lead there, and names and
+    /// arrows that have no room give way to those of other paths.
+    pub(super) fn depends_on_all(&self) -> bool {
+        self.site || self.arrows || self.labels || self.route.is_some()
+    }
+
     /// The decorations that the options select.
     pub(super) fn decorations(&self, inputs: &[Input]) -> Decorations {
         if self.site {

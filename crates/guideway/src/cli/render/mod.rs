@@ -6,12 +6,14 @@
 //! | `view_args`, `style_args`, `decoration_args` | one group of options each |
 //! | `view_notes` | notes on what a view does not show |
 //! | `report` | the report as text and JSON |
+//! | `part` | reads the part of a large file that a view shows |
 //! | `page` | the same in a page, which `share` writes |
 //! | `run` | reads, composes, reports |
 
 mod args;
 mod decoration_args;
 mod page;
+mod part;
 mod report;
 mod run;
 mod style_args;

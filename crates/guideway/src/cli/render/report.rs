@@ -9,6 +9,7 @@ use guideway::scene::{Clock, FrameSize, Legend, Scene};
 use serde_json::{Value, json};
 
 use super::args::Args;
+use super::part::BytesRead;
 use crate::cli::output::is_stdout;
 use crate::cli::route::FoundRoute;
 use crate::cli::{envelope, input, text};
@@ -54,6 +55,13 @@ pub(super) fn text(path: &Path, shown: &Shown<'_>, times: &Times) -> String {
         );
     }
     text += &paths_text(rendered);
+    if let Some(BytesRead { read, all }) = BytesRead::of(scene.layout()) {
+        text += &format!(
+            "read {} of {}: the paths near the view\n",
+            text::bytes(read),
+            text::bytes(all)
+        );
+    }
     text += &rendered.swept.as_ref().map_or_else(String::new, swept_text);
     text += &route.map_or_else(String::new, FoundRoute::text);
     text += &format!(
@@ -172,6 +180,10 @@ pub(super) fn json(args: &Args, output: &Path, shown: &Shown<'_>, times: &Times)
         },
         "envelopes": rendered.swept.as_ref().map(swept_json),
         "route": route.map(FoundRoute::json),
+        "read": BytesRead::of(layout).map(|bytes| json!({
+            "bytes": bytes.read,
+            "of_bytes": bytes.all,
+        })),
         "lines": report.lines,
         "peak_bytes": report.peak_bytes,
         "bands": report.bands,

@@ -10,6 +10,7 @@ use guideway::scene::density::ToneMap;
 use guideway::scene::{Method, Scene, SceneOptions, Shading, elapsed_ms};
 
 use super::args::Args;
+use super::part;
 use super::report::{self, Shown, Times};
 use super::view_notes::view_notes;
 use crate::cli::error::{Exit, usage_error};
@@ -17,7 +18,7 @@ use crate::cli::output::Output;
 use crate::cli::picture_output::PictureOutput;
 use crate::cli::progress_bar::plan;
 use crate::cli::share::is_page;
-use crate::cli::{floor_plan, input, output};
+use crate::cli::{floor_plan, output};
 
 /// The maker of the picture.
 enum Renderer {
@@ -47,7 +48,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     plan(files, &[6.0, 0.1, 1.0, 3.0]);
     let floor_plan = floor_plan.map(|plan| floor_plan::read(plan, target.file, out));
     let floor_plan = floor_plan.transpose()?;
-    let (layout, read_ms) = input::read_all(&args.inputs, out)?;
+    let (layout, read_ms) = part::read(args, &options, out)?;
     let progress = out.progress("preparing the scene");
     let is_each = args.is_each_level(&layout);
     if is_each && world_file.is_some() {
