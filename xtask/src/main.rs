@@ -150,6 +150,17 @@ fn checks() -> Result<()> {
     }
 }
 
+/// Executes the notebook of the Python package, whose file has no outputs.
+const EXECUTE_NOTEBOOK: &str = "\
+import nbclient, nbformat
+notebook = nbformat.read('python/examples/first_layout.ipynb', as_version=4)
+nbformat.validate(notebook)
+assert not any(cell.get('outputs') for cell in notebook.cells), 'clear the outputs'
+nbclient.execute(notebook, cwd='python/examples')
+shown = [output.get('data', {}) for cell in notebook.cells for output in cell.get('outputs', [])]
+assert sum('image/png' in data for data in shown) == 2, 'the site and a picture of it'
+";
+
 /// Tests the Python package: its own files beside the extension module that the workspace built.
 fn python_package(python: &Path) -> Result<()> {
     build_with_workspace()?;
@@ -183,6 +194,8 @@ fn python_package(python: &Path) -> Result<()> {
     let site = "crates/guideway/examples/site.lif.json";
     run(&["python/examples/ray_tiles.py", site, "0", "4", "2"])?;
     run(&["python/examples/dask_check.py", "2", site, "README.md"])?;
+    // As a reader of it would; its file has no pictures, which each reader makes.
+    run(&["-c", EXECUTE_NOTEBOOK])?;
     // The stubs: consistent, true to the module, and enough for the tests.
     run(&["-m", "mypy.stubtest", "guideway"])?;
     run(&[

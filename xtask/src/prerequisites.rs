@@ -109,9 +109,11 @@ pub(crate) fn python() -> Result<PathBuf> {
         "dask[dataframe]",
         "duckdb",
         "geopandas",
+        "ipykernel",
         "jsonschema",
         "lxml",
         "mypy",
+        "nbclient",
         "pandas",
         "polars",
         "pyarrow",
@@ -119,8 +121,8 @@ pub(crate) fn python() -> Result<PathBuf> {
         "pytest",
         "ray",
     ];
-    let modules = "import dask.dataframe, duckdb, geopandas, jsonschema, lxml, mypy, pandas, \
-                   polars, pyarrow, pyright, pytest, ray.data";
+    let modules = "import dask.dataframe, duckdb, geopandas, ipykernel, jsonschema, lxml, mypy, \
+                   nbclient, pandas, polars, pyarrow, pyright, pytest, ray.data";
     environment("python", &packages, modules)
 }
 
