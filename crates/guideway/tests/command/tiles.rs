@@ -58,3 +58,43 @@ fn refuses_what_does_not_apply() {
     assert!(stderr(&named).contains(".pmtiles"), "{}", stderr(&named));
     assert_eq!(names_in(folder.path()), Vec::<String>::new());
 }
+
+/// With a limit of bytes per file, which fails as a full disk does.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_keeps_finished_tiles_and_the_next_run_goes_on() {
+    let full = tempfile::tempdir().unwrap();
+    let free = tempfile::tempdir().unwrap();
+    let args = ["--zoom", "0-5"];
+    let mut limited = std::process::Command::new("sh");
+    limited.current_dir(full.path());
+    // Blocks of 512 bytes; the signal would end the command before it can say anything.
+    limited.args(["-c", "trap '' XFSZ; ulimit -f 400; exec \"$@\"", "sh"]);
+    limited
+        .arg(command().get_program())
+        .arg("tiles")
+        .arg(site());
+    limited.args(["-o", "site.pmtiles", "--json"]).args(args);
+    let output = limited.output().expect("sh starts");
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    let error = json(&output, "error");
+    let text = error.to_string();
+    assert!(
+        text.contains("unfinished") && text.contains("space"),
+        "{text}"
+    );
+    assert_eq!(names_in(full.path()), ["site.pmtiles.unfinished"]);
+
+    let resumed = json(&tiles(full.path(), &args), "tiles");
+    assert!(resumed["continued"].as_u64().unwrap() > 0, "{resumed:#}");
+    let whole = json(&tiles(free.path(), &args), "tiles");
+    assert_eq!(
+        (&whole["continued"], &whole["tiles"]),
+        (&0.into(), &resumed["tiles"])
+    );
+    let made = [full, free].map(|folder| {
+        assert_eq!(names_in(folder.path()), ["site.pmtiles"]);
+        fs::read(folder.path().join("site.pmtiles")).unwrap()
+    });
+    assert!(made[0] == made[1]);
+}
