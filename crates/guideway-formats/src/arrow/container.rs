@@ -127,8 +127,8 @@ fn file_messages(footer: &Footer<'_>, footer_at: usize) -> Result<Vec<Message>, 
     Ok(messages)
 }
 
-/// Returns the extents of the record batches that the metadata of the footer states; none if they
-/// are not those of these batches.
+/// Returns the extents of the record batches that the metadata of the footer states. They are
+/// ignored unless they are those of these batches.
 fn extents_of(footer: &Footer<'_>) -> impl Iterator<Item = Option<Extent>> {
     let mut metadata = footer.custom_metadata().into_iter().flatten();
     let text = metadata.find(|entry| entry.key() == Some(EXTENTS_KEY));

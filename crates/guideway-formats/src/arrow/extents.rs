@@ -79,7 +79,7 @@ impl Extents {
     }
 }
 
-/// Reads the extents of `batches` batches; `None` if the text is not that of [`Extents::into_text`].
+/// Reads the extents of `batches` batches; `None` unless [`Extents::into_text`] wrote the text.
 pub(super) fn extents(text: &str, batches: usize) -> Option<Vec<Option<Extent>>> {
     let all: Vec<Option<[f64; NUMBERS]>> = serde_json::from_str(text).ok()?;
     let extent = |numbers: &Option<[f64; NUMBERS]>| {

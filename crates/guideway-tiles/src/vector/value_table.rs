@@ -1,4 +1,4 @@
-//! [`ValueTable`]: numbers of the different values of a tile, by a hash table that keeps its memory.
+//! [`ValueTable`]: numbers the different values of a tile, by a hash table that keeps its memory.
 
 use std::hash::{BuildHasher, RandomState};
 use std::ops::Range;
