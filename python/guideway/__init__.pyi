@@ -247,9 +247,14 @@ class Layout:
 def open(
     source: str | os.PathLike[str] | bytes | _BinaryFile,
     *,
+    area: tuple[float, float, float, float] | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Layout:
-    """Reads a layout of any format; the content decides which."""
+    """Reads a layout of any format; the content decides which.
+
+    `area` is a box (min_x, min_y, max_x, max_y) in meters: of an Arrow file of paths, only the
+    record batches that may have points in it are read.
+    """
 
 def check_many(
     paths: Iterable[str | os.PathLike[str]],

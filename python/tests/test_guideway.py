@@ -392,6 +392,26 @@ def lines_as_structs() -> object:
     return pyarrow.table({"id": ["a", "none", "b"], "control_points": points})
 
 
+def test_an_arrow_file_is_read_in_part(tmp_path: pathlib.Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    lines = [[[x - 1.0, 0.0], [x, 0.0], [x + 1.0, 0.0], [x + 2.0, 0.0]] for x in range(40_000)]
+    points = pyarrow.array(lines, pyarrow.list_(pyarrow.list_(pyarrow.float64(), 2)))
+    layout = guideway.Layout.from_arrow(pyarrow.table({"control_points": points}))
+    layout.save(tmp_path / "lines.arrow")
+    part = guideway.open(tmp_path / "lines.arrow", area=(20_000.0, -1.0, 20_010.0, 1.0))
+    assert len(part) == 16_384 and len(layout) == 40_000
+    assert len(guideway.open(tmp_path / "lines.arrow")) == 40_000
+    # A tile needs the paths near it only.
+    whole = guideway.Tiler(layout, content="vector")
+    assert whole.grid is not None
+    near = guideway.Tiler(part, content="vector", grid=whole.grid)
+    left, top, side = whole.grid
+    address = (12, int((20_005 - left) / side * 4096), int(top / side * 4096))
+    assert whole.draw(*address) and whole.draw(*address) == near.draw(*address)
+    with pytest.raises(guideway.GuidewayError, match="is no box"):
+        guideway.open(tmp_path / "lines.arrow", area=(1.0, 0.0, 0.0, 1.0))
+
+
 def test_points_as_structs_and_missing_lists_are_read() -> None:
     layout = guideway.Layout.from_arrow(lines_as_structs())  # type: ignore[arg-type]
     assert len(layout) == 2 and layout.length_m == pytest.approx(2.0)
