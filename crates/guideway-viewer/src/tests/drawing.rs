@@ -1,7 +1,8 @@
 //! Drawing by clicks and typed texts: lines, arcs, curves, nodes, stations, snapping.
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Vec2};
 use guideway_document::Document;
+use guideway_document::decorations::handles;
 use guideway_scene::Table;
 use guideway_spline::Point;
 
@@ -326,4 +327,43 @@ fn button(pos: eframe::egui::Pos2, pressed: bool) -> Event {
         pressed,
         modifiers: NONE,
     }
+}
+
+#[test]
+fn dragged_control_point_leaves_the_ends_on_their_nodes() {
+    let mut window = new_layout();
+    window.key(Modifiers::SHIFT, Key::C);
+    for point in ["0,0", "4,0", "8,4", "8,8"] {
+        window.type_line(point);
+    }
+    window.key(NONE, Key::Enter);
+    window.key(NONE, Key::F);
+    window.key(NONE, Key::P);
+    let curve = window.document().layout().paths.get(0);
+    let middle = curve.point_at(curve.length_m() / 2.0).unwrap();
+    let at = window.at(middle.x, middle.y);
+    window.click(at);
+    // Control points lie beside the curve.
+    for _ in 0..3 {
+        window.key(NONE, Key::Minus);
+    }
+    let view = window.app().canvas.camera.view().unwrap();
+    let handle = handles(window.document(), &view)[1].at_px;
+    let from = window.app().canvas.origin() + Vec2::new(handle.x as f32, handle.y as f32);
+    window.drag(from, from + Vec2::new(60.0, 90.0));
+    let document = window.document();
+    let path = document.layout().paths.get(0);
+    let (start, end) = path.ends().unwrap();
+    let nodes = [path.start_node(), path.end_node()].map(Option::unwrap);
+    for (end, node) in [start, end].into_iter().zip(nodes) {
+        assert!(
+            end.distance(document.node_position_m(node)) < 1e-6,
+            "{end:?}"
+        );
+    }
+    let now = path.point_at(path.length_m() / 2.0).unwrap();
+    assert!(
+        now.distance(middle) > 0.05,
+        "the curve is another one: {now:?}"
+    );
 }
