@@ -147,12 +147,12 @@ impl Diagnostics {
     }
 
     /// Stored findings, in the order of their detection.
-    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Diagnostic> {
         self.stored.iter()
     }
 
     /// Stored findings, mutable: a reader may learn their place after their detection.
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Diagnostic> {
+    pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Diagnostic> {
         self.stored.iter_mut()
     }
 

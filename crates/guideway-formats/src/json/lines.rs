@@ -2,12 +2,13 @@
 //! diagnostic, from the path of its element such as `layouts[0].nodes[3].x`, by a second scan over
 //! the text.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use guideway_layout::{Layout, LineIndex, Origin};
+use guideway_layout::{Diagnostic, Layout, LineIndex, Origin, TextPosition};
 
-use super::scan::{items_at, member, offset_in};
+use super::scan::{items_at, member, offset_in, unescaped};
 use super::skeleton::Skeleton;
 
 /// Returns the places in a document of the items of an array that its root object has, if it has
@@ -41,7 +42,7 @@ pub(crate) fn find_lines(layout: &mut Layout, file: &str, document: Option<&str>
     }
     let document = document.and_then(|part| Some((part, offset_in(file, part)?)));
     let starts = document.map_or_else(Vec::new, |(part, before)| {
-        let starts = starts(layout, part).into_iter();
+        let starts = starts_of_findings(layout, part).into_iter();
         starts
             .map(|start| start.map(|start| before + start))
             .collect()
@@ -64,7 +65,7 @@ pub(crate) fn find_lines(layout: &mut Layout, file: &str, document: Option<&str>
 
 /// Sets the line of each diagnostic about a part of the skeleton of the file.
 pub(crate) fn find_skeleton_lines(layout: &mut Layout, skeleton: &Skeleton) {
-    let starts = starts(layout, &skeleton.text);
+    let starts = starts_of_findings(layout, &skeleton.text);
     for (diagnostic, start) in layout.diagnostics.iter_mut().zip(starts) {
         let place = &mut diagnostic.place;
         if let (None, Some(start)) = (place.line, start) {
@@ -73,36 +74,61 @@ pub(crate) fn find_skeleton_lines(layout: &mut Layout, skeleton: &Skeleton) {
     }
 }
 
-/// The first byte in a text of the part of its value to which an element such as `.nodes[3].x`
-/// leads, or of the innermost part that exists.
-pub(crate) fn offset_of(text: &str, element: &str) -> usize {
-    let mut at = 0;
-    for step in element.split(['.', '[']).skip(1) {
-        let part = match step.strip_suffix(']').map(str::parse::<usize>) {
-            Some(Ok(index)) => items_at(text, at).into_iter().nth(index),
-            _ => member(text, at, step),
-        };
-        let Some(part) = part else { break };
-        at = part.start;
+/// Sets the place of findings about parts of one value, whose element is `of` and whose text begins
+/// at `position`: that of the innermost part that exists. One scan finds all of them.
+pub(crate) fn find_lines_within<'d>(
+    findings: impl Iterator<Item = &'d mut Diagnostic>,
+    of: &str,
+    text: &str,
+    position: TextPosition,
+) {
+    let mut findings: Vec<&mut Diagnostic> = findings.collect();
+    let steps = |finding: &&mut Diagnostic| {
+        let within = finding.place.element.strip_prefix(of);
+        within.unwrap_or_default().to_owned()
+    };
+    let elements: Vec<String> = findings.iter().map(steps).collect();
+    let starts = starts(elements.iter().map(|within| steps_of(within).skip(1)), text);
+    let starts = starts.into_iter().map(Option::unwrap_or_default);
+    let mut in_order: Vec<(usize, &mut &mut Diagnostic)> = starts.zip(&mut findings).collect();
+    in_order.sort_by_key(|&(start, _)| start);
+    let (mut at, mut position) = (0, position);
+    for (start, finding) in in_order {
+        position = position.after(&text.as_bytes()[at..start]);
+        at = start;
+        let place = &mut finding.place;
+        *place = std::mem::take(place).at(position);
+        place.origin = None;
     }
-    at
 }
 
-/// The first byte of the element of each diagnostic.
-fn starts(layout: &Layout, text: &str) -> Vec<Option<usize>> {
+/// The first byte of the element of each diagnostic; none for one of the whole text.
+fn starts_of_findings(layout: &Layout, text: &str) -> Vec<Option<usize>> {
+    let findings = layout.diagnostics.iter();
+    starts(
+        findings.map(|finding| steps_of(&finding.place.element)),
+        text,
+    )
+}
+
+/// The first byte of each of some elements, or of the innermost enclosing one that exists but for
+/// the whole text.
+fn starts<'e, S: Iterator<Item = Step<'e>>>(
+    elements: impl Iterator<Item = S>,
+    text: &str,
+) -> Vec<Option<usize>> {
     let mut wanted = ElementTree::default();
-    let elements = layout.diagnostics.iter().map(|d| &d.place.element);
     let nodes: Vec<usize> = elements.map(|element| wanted.add(element)).collect();
     if nodes.is_empty() {
         return Vec::new();
     }
     let mut scan = ElementScan {
+        text,
         bytes: text.as_bytes(),
         at: 0,
         starts: vec![None; wanted.nodes.len()],
     };
     scan.value(ROOT, &wanted);
-    // A diagnostic of the whole file has no line.
     scan.starts[ROOT] = None;
     let of_innermost = |node: usize| {
         let mut outwards = std::iter::successors(Some(node), |&node| wanted.nodes[node].parent);
@@ -111,10 +137,20 @@ fn starts(layout: &Layout, text: &str) -> Vec<Option<usize>> {
     nodes.into_iter().map(of_innermost).collect()
 }
 
+/// The steps of an element such as `layouts[0].nodes[3].x`.
+fn steps_of(element: &str) -> impl Iterator<Item = Step<'_>> {
+    element
+        .split(['.', '['])
+        .map(|part| match part.strip_suffix(']').map(str::parse) {
+            Some(Ok(index)) => Step::Index(index),
+            _ => Step::Key(Cow::Borrowed(part)),
+        })
+}
+
 /// A step from a value to a child value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Step<'e> {
-    Key(&'e str),
+    Key(Cow<'e, str>),
     Index(usize),
 }
 
@@ -142,14 +178,10 @@ impl Default for ElementTree<'_> {
 }
 
 impl<'e> ElementTree<'e> {
-    /// Adds an element such as `layouts[0].nodes[3].x`; returns its node.
-    fn add(&mut self, element: &'e str) -> usize {
+    /// Adds the element to which some steps lead; returns its node.
+    fn add(&mut self, steps: impl Iterator<Item = Step<'e>>) -> usize {
         let mut node = ROOT;
-        for part in element.split(['.', '[']) {
-            let step = match part.strip_suffix(']').map(str::parse) {
-                Some(Ok(index)) => Step::Index(index),
-                _ => Step::Key(part),
-            };
+        for step in steps {
             let new = self.nodes.len();
             let child = *self.children.entry((node, step)).or_insert(new);
             if child == new {
@@ -167,6 +199,7 @@ impl<'e> ElementTree<'e> {
 
 /// Scan over a text that was parsed before, so its syntax is valid.
 struct ElementScan<'t> {
+    text: &'t str,
     bytes: &'t [u8],
     at: usize,
     /// First byte of each element of the tree that was found.
@@ -223,8 +256,8 @@ impl<'t> ElementScan<'t> {
         None
     }
 
-    /// Skips past a string and returns the text between its quotes.
-    fn string(&mut self) -> &'t str {
+    /// Skips past a string and returns what it says.
+    fn string(&mut self) -> Cow<'t, str> {
         let start = self.at + 1;
         self.at = start;
         while let Some(&byte) = self.bytes.get(self.at) {
@@ -235,9 +268,12 @@ impl<'t> ElementScan<'t> {
             }
             self.at += 1;
         }
-        let inner = self.bytes.get(start..self.at).unwrap_or_default();
+        let inner = self.text.get(start..self.at).unwrap_or_default();
         self.at += 1;
-        std::str::from_utf8(inner).unwrap_or_default()
+        match inner.contains('\\') {
+            true => unescaped(&self.text[start - 1..self.at]).into(),
+            false => inner.into(),
+        }
     }
 
     /// Skips past any value.
@@ -301,6 +337,39 @@ mod tests {
         ] {
             assert_eq!(line_of(element, text), line, "{element}");
         }
+    }
+
+    #[test]
+    fn findings_about_parts_of_a_value_get_their_lines_and_columns() {
+        let text = "{\"a\": [1,\n{\"\\u0062\": 2}], \"c\": 3}";
+        let elements = [
+            "e[7].c",
+            "e[7].a[1].b",
+            "e[7]",
+            "e[7].a[0]",
+            "e[7].a[5].x",
+            "f",
+        ];
+        let mut layout = Layout::default();
+        for element in elements {
+            let place = || Place::element(element);
+            layout
+                .diagnostics
+                .push(Code::Attribute, place, String::new, "");
+        }
+        let position = TextPosition { line: 4, column: 9 };
+        find_lines_within(layout.diagnostics.iter_mut(), "e[7]", text, position);
+        let found: Vec<_> = layout
+            .diagnostics
+            .iter()
+            .map(|finding| (finding.place.line, finding.place.column))
+            .collect();
+        let at = |line, column| (Some(line), Some(column));
+        let whole = at(4, 9);
+        assert_eq!(
+            found,
+            [at(5, 22), at(5, 12), whole, at(4, 16), at(4, 15), whole]
+        );
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub(crate) use self::check::{field_place, items};
 pub(crate) use self::documents::{documents, payload};
 pub(crate) use self::field::{Field, FromJson, Key};
 pub(crate) use self::lazy_array::{ArrayFault, LazyArray, LazyItem, RecordKind};
-pub(crate) use self::lines::{find_lines, find_skeleton_lines, offset_of, root_items};
+pub(crate) use self::lines::{find_lines, find_lines_within, find_skeleton_lines, root_items};
 pub(crate) use self::parse::{parse, parse_checked, parse_part, problem};
 pub(crate) use self::record::record;
 pub(crate) use self::scan::{items_at, member, offset_in, push_compact};

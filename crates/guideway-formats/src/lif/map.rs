@@ -9,7 +9,8 @@ use super::type_entries::{ColumnCell, other_cell};
 use crate::ReadError;
 use crate::builder::PlaceFn;
 use crate::json::{
-    ArrayFault, Field, LazyArray, LazyItem, OtherMembers, RecordKind, field_place, items, offset_of,
+    ArrayFault, Field, LazyArray, LazyItem, OtherMembers, RecordKind, field_place,
+    find_lines_within, items,
 };
 
 /// A layout record with its place in the file. Each maps to a level.
@@ -125,15 +126,11 @@ impl Mapper<'_> {
     ) -> Result<(), ReadError> {
         self.builder.element_byte = Some(item.start);
         self.builder.element_position = (!self.keeps_text).then_some(position);
-        let before = self.builder.layout.diagnostics.iter().count();
+        let before = self.builder.layout.diagnostics.iter().len();
         K::map(self, item, level, at)?;
-        for finding in self.builder.layout.diagnostics.iter_mut().skip(before) {
-            let place = &mut finding.place;
-            let within = place.element.strip_prefix(&at().element);
-            let byte = within.map_or(0, |element| offset_of(item.text, element));
-            let position = position.after(&item.text.as_bytes()[..byte]);
-            *place = std::mem::take(place).at(position);
-            place.origin = None;
+        let findings = self.builder.layout.diagnostics.iter_mut().skip(before);
+        if findings.len() > 0 {
+            find_lines_within(findings, &at().element, item.text, position);
         }
         Ok(())
     }

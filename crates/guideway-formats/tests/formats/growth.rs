@@ -173,3 +173,17 @@ fn lanelets_that_share_a_long_bound_are_linear() {
         });
     }
 }
+
+#[test]
+fn findings_within_one_edge_are_located_at_once() {
+    assert_linear("repeated vehicle types", 400, |size| {
+        let entries = vec![r#"{"vehicleTypeId": "a"}"#; size].join(", ");
+        format!(
+            r#"{{"metaInformation": {{"lifVersion": "1.0.0"}}, "layouts": [{{"layoutId": "L",
+            "nodes": [{{"nodeId": "A", "nodePosition": {{"x": 0, "y": 0}}}},
+            {{"nodeId": "B", "nodePosition": {{"x": 10, "y": 0}}}}], "edges": [{{"edgeId": "E",
+            "startNodeId": "A", "endNodeId": "B", "vehicleTypeEdgeProperties": [{entries}]}}],
+            "stations": []}}]}}"#
+        )
+    });
+}
