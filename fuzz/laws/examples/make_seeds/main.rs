@@ -1,7 +1,7 @@
 //! Writes the seeds of `fuzz/seeds`, one archive per target: the made ones anew, and the kept ones
 //! as they are.
 //!
-//! `-- keep TARGET FOLDER` keeps files of a minimized corpus, the smallest first, up to a size.
+//! `-- keep TARGET FOLDER` adds files of a minimized corpus, of all sizes, up to a size in all.
 
 mod attacks;
 mod made;
@@ -80,7 +80,6 @@ fn keep(target: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
     let known = TARGETS.iter().find(|known| known.name == target);
     let known = known.ok_or_else(|| format!("unknown target {target}"))?;
     let mut files = stored(target)?;
-    files.retain(|name, _| !name.starts_with(KEPT));
     let mut found: Vec<Vec<u8>> = Vec::new();
     for entry in fs::read_dir(folder)? {
         found.push(fs::read(entry?.path())?);
@@ -90,16 +89,20 @@ fn keep(target: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
     found.retain(|bytes| !bytes.is_empty() && bytes.len() <= LARGEST_KEPT_BYTES);
     found.sort_by_key(|bytes| (bytes.len(), bytes.clone()));
     found.dedup();
-    let mut left = MOST_KEPT_BYTES;
+    let kept = files.iter().filter(|(name, _)| name.starts_with(KEPT));
+    let kept: Vec<&[u8]> = kept.map(|(_, bytes)| &bytes[..]).collect();
+    let room = MOST_KEPT_BYTES.saturating_sub(kept.concat().len());
+    let first = kept.len();
     // Every n-th, so that all sizes are kept.
     let total: usize = found.iter().map(Vec::len).sum();
-    let every = total.div_ceil(MOST_KEPT_BYTES).max(1);
+    let every = total.div_ceil(room.max(1)).max(1);
+    let mut left = room;
     for (i, bytes) in found.into_iter().step_by(every).enumerate() {
         let Some(rest) = left.checked_sub(bytes.len()) else {
             break;
         };
         left = rest;
-        files.insert(format!("{KEPT}{i:03}"), bytes);
+        files.insert(format!("{KEPT}{:03}", first + i), bytes);
     }
     write(target, files)
 }
