@@ -32,7 +32,7 @@ struct Difference {
 pub(super) fn check(layout: &Layout, tolerances: &Tolerances, found: &mut Diagnostics) {
     let paths = &layout.paths;
     let column = paths.attributes.iter().find(|column| column.name == LENGTH);
-    if !column.is_some_and(|column| column.quantity == Some(Quantity::Length)) {
+    if column.is_none_or(|column| column.quantity != Some(Quantity::Length)) {
         return;
     }
     let difference = |path: PathRef<'_>| {
