@@ -98,7 +98,7 @@ pub(super) fn table_columns(
 
 /// The next rows of a table.
 enum Step {
-    Batch(Decoded),
+    Batch(Box<Decoded>),
     /// A number of rows beyond the area.
     Skipped(usize),
 }
@@ -132,7 +132,7 @@ impl BatchStream<'_> {
                 return Ok(Some(Step::Skipped(extent.rows)));
             }
             if let Some(batch) = self.decoder.decode(message, self.budget)? {
-                return Ok(Some(Step::Batch(batch)));
+                return Ok(Some(Step::Batch(Box::new(batch))));
             }
         }
         Ok(None)

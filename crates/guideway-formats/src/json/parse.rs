@@ -100,18 +100,13 @@ fn reword(message: &str, rest: &str) -> String {
         '\'', '`', '\u{2018}', '\u{2019}', '\u{201C}', '\u{201D}', '\u{201E}',
     ];
     const COMMENTS: [&str; 3] = ["//", "/*", "#"];
-    if matches!(message, "key must be a string" | "expected value") {
-        if rest.starts_with(OTHER_QUOTES) {
-            let quote = rest.chars().next().unwrap_or_default();
-            return format!(
-                "found the quote {quote}; JSON wants double quotes around names and texts"
-            );
-        }
+    let is_text = matches!(message, "key must be a string" | "expected value");
+    if is_text && rest.starts_with(OTHER_QUOTES) {
+        let quote = rest.chars().next().unwrap_or_default();
+        return format!("found the quote {quote}; JSON wants double quotes around names and texts");
     }
     let is_between = message.starts_with("expected `");
-    if (is_between || matches!(message, "key must be a string" | "expected value"))
-        && COMMENTS.iter().any(|mark| rest.starts_with(mark))
-    {
+    if (is_text || is_between) && COMMENTS.iter().any(|mark| rest.starts_with(mark)) {
         return "found a comment; JSON has none".into();
     }
     let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
