@@ -9,7 +9,7 @@ use crate::same::{
 };
 use guideway_formats::Losses;
 use guideway_formats::lif::{Version, WriteOptions, write_layout};
-use guideway_layout::{Code, Direction, Layout, NewPath, Value};
+use guideway_layout::{Code, Direction, Layout, Level, NewPath, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
 
@@ -184,6 +184,38 @@ fn makes_names_unique_and_lists_losses() {
     assert_eq!(nodes, ["N", "N~3", "N~2"]);
     assert_eq!(again.stations.nodes(0), [1]);
     assert_eq!(column(&again, "maxSpeed", 2), Some(Value::Float(1.5)));
+}
+
+#[test]
+fn node_without_a_level_goes_to_that_of_its_path() {
+    let mut layout = Layout::default();
+    layout.levels.push(Level {
+        id: "hall".into(),
+        ..Level::default()
+    });
+    let (a, b) = (Point::new(0.0, 0.0), Point::new(9.0, 0.0));
+    for stated in [[Some(0), None], [None, Some(0)]] {
+        let mut layout = layout.clone();
+        let start_node = Some(layout.nodes.push("a", a, stated[0]));
+        let end_node = Some(layout.nodes.push("b", b, stated[1]));
+        let mut runs = Runs::default();
+        runs.push_line(a, b);
+        layout.paths.push(&NewPath {
+            id: "ab",
+            runs: &runs,
+            start_node,
+            end_node,
+            ..NewPath::default()
+        });
+        for version in VERSIONS {
+            let (text, losses) = written(&layout, version);
+            assert!(lost(&losses).contains(&("levels", 1)), "{losses:?}");
+            assert!(losses.iter().all(|loss| loss.what != "refused paths"));
+            let again = read(&text);
+            assert_eq!((again.levels.len(), again.paths.len()), (1, 1), "{text}");
+            assert_eq!([again.nodes.level(0), again.nodes.level(1)], [Some(0); 2]);
+        }
+    }
 }
 
 #[test]

@@ -43,7 +43,8 @@ impl<'a> Network<'a> {
         let mut levels: Vec<_> = layout.levels.iter().map(Cow::Borrowed).collect();
         let elevated = layout.levels.iter().filter(|l| l.elevation_m.is_some());
         losses.add("levels", elevated.count(), "elevations of levels");
-        let without_level = count_without_level(layout);
+        let node_levels = levels_of_nodes(layout);
+        let without_level = count_without_level(layout, &node_levels);
         if without_level > 0 || levels.is_empty() {
             let mut names = UniqueNames::new(layout.levels.iter().map(|level| level.id.as_str()));
             let id = names.make_unique("layout");
@@ -57,8 +58,13 @@ impl<'a> Network<'a> {
         }
         let on_node_level = layout.paths.iter().filter(|p| p.level().is_none());
         let on_node_level = on_node_level.filter(|p| level_of(layout, *p).is_some());
-        let detail = "paths without a level: written to the level of their first node";
+        let detail = "paths without a level: written to the level of their nodes";
         losses.add("levels", on_node_level.count(), detail);
+        let stated = (0..).map(|node| layout.nodes.level(node));
+        let on_path_level = node_levels.iter().zip(stated);
+        let on_path_level = on_path_level.filter(|(level, stated)| **level != *stated);
+        let detail = "nodes without a level: written to the level of their paths";
+        losses.add("levels", on_path_level.count(), detail);
         let mut network = Self {
             level_rows: vec![LevelRows::default(); levels.len()],
             levels,
@@ -67,7 +73,7 @@ impl<'a> Network<'a> {
         };
         let mut names =
             UniqueNames::new((0..layout.nodes.len() as u32).map(|n| layout.nodes.id(n)));
-        network.add_nodes(layout, &mut names, losses);
+        network.add_nodes(layout, &node_levels, &mut names, losses);
         network.add_paths(layout, &mut names, losses);
         for station in 0..layout.stations.len() as u32 {
             let level = network.level(layout.stations.level(station));
@@ -94,10 +100,16 @@ impl<'a> Network<'a> {
         node
     }
 
-    fn add_nodes(&mut self, layout: &'a Layout, names: &mut UniqueNames<'a>, losses: &mut Losses) {
-        for node in 0..layout.nodes.len() as u32 {
+    fn add_nodes(
+        &mut self,
+        layout: &'a Layout,
+        levels: &[Option<u32>],
+        names: &mut UniqueNames<'a>,
+        losses: &mut Losses,
+    ) {
+        for (node, &level) in (0..).zip(levels) {
             let id = names.take(layout.nodes.id(node));
-            let level = self.level(layout.nodes.level(node));
+            let level = self.level(level);
             self.push_node(id, layout.nodes.position_m(node), level);
         }
         let detail = "nodes with a repeated name: written with a number at the end";
@@ -214,18 +226,35 @@ pub(in crate::lif) fn path_types(layout: &Layout, path: usize) -> Vec<&str> {
     }
 }
 
-/// Returns the level of a path, or else of its start node.
+/// Returns the level of a path, or else of its start node, or of its end node.
 pub(in crate::lif) fn level_of(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
-    let of_start = || layout.nodes.level(path.start_node()?);
-    path.level().or_else(of_start)
+    let of_nodes = || {
+        let ends = [path.start_node(), path.end_node()].into_iter().flatten();
+        ends.filter_map(|node| layout.nodes.level(node)).next()
+    };
+    path.level().or_else(of_nodes)
 }
 
-fn count_without_level(layout: &Layout) -> usize {
+/// The level of each node, or else of the first of its paths that has one.
+fn levels_of_nodes(layout: &Layout) -> Vec<Option<u32>> {
+    let nodes = 0..layout.nodes.len() as u32;
+    let mut levels: Vec<_> = nodes.map(|node| layout.nodes.level(node)).collect();
+    for path in layout.paths.iter() {
+        let level = level_of(layout, path);
+        for node in [path.start_node(), path.end_node()].into_iter().flatten() {
+            let own = &mut levels[node as usize];
+            *own = own.or(level);
+        }
+    }
+    levels
+}
+
+fn count_without_level(layout: &Layout, node_levels: &[Option<u32>]) -> usize {
     let paths = layout
         .paths
         .iter()
         .filter(|p| level_of(layout, *p).is_none());
-    let nodes = (0..layout.nodes.len() as u32).filter(|&n| layout.nodes.level(n).is_none());
+    let nodes = node_levels.iter().filter(|level| level.is_none());
     let stations = 0..layout.stations.len() as u32;
     let stations = stations.filter(|&s| layout.stations.level(s).is_none());
     paths.count() + nodes.count() + stations.count()
