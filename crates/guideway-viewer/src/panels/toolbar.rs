@@ -43,11 +43,14 @@ pub(crate) fn show(ui: &mut Ui, state: &CommandState<'_>) -> Vec<Action> {
                 ui.separator();
             }
             for &command in *group {
-                let is_possible = state.is_possible(command);
-                let is_clicked = ui
-                    .add_enabled_ui(is_possible, |ui| button(ui, command, state).clicked())
-                    .inner;
-                if is_clicked {
+                // A part of the window for each button would take as long as all else here.
+                let response = if state.is_possible(command) {
+                    button(ui, command, state)
+                } else {
+                    ui.add_enabled_ui(false, |ui| button(ui, command, state))
+                        .inner
+                };
+                if response.clicked() {
                     actions.push(Action::Command(command));
                 }
             }
@@ -58,7 +61,7 @@ pub(crate) fn show(ui: &mut Ui, state: &CommandState<'_>) -> Vec<Action> {
 
 fn button(ui: &mut Ui, command: Command, state: &CommandState<'_>) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
-    let (is_on, label) = (state.is_on(command), state.label(command));
+    let is_on = state.is_on(command);
     response
         .widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), is_on, command.name()));
     let visuals = ui.style().interact_selectable(&response, is_on);
@@ -68,9 +71,12 @@ fn button(ui: &mut Ui, command: Command, state: &CommandState<'_>) -> Response {
     }
     let square = Rect::from_center_size(rect.center(), Vec2::splat(ICON));
     icons::paint(ui.painter(), command, square, visuals.fg_stroke);
+    if !response.contains_pointer() && !response.has_focus() {
+        return response;
+    }
     let keys = shortcuts_of(command).next();
     let keys = keys.map(|keys| format!(" ({})", ui.ctx().format_shortcut(keys)));
-    let text = label + &keys.unwrap_or_default();
+    let text = state.label(command) + &keys.unwrap_or_default();
     response.on_hover_text(&text).on_disabled_hover_text(&text)
 }
 
