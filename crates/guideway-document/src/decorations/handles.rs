@@ -1,4 +1,4 @@
-//! Handles: the control points of selected paths, to drag in the window.
+//! Handles: the clamped control points of selected paths, to drag in the window.
 
 use guideway_scene::View;
 use guideway_spline::Point;
@@ -6,7 +6,7 @@ use guideway_spline::Point;
 use super::marks::MAX_MARKED;
 use super::outline::paths_near;
 use crate::document::Document;
-use crate::edit::PointRef;
+use crate::edit::{PointRef, clamped};
 
 /// A control point that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,8 @@ pub fn handles(document: &Document, view: &View) -> Vec<Handle> {
             if handles.len() + points.len() > MAX_MARKED {
                 return Vec::new();
             }
-            handles.extend(points.iter().enumerate().map(handle));
+            let points: Vec<Point<f64>> = points.iter().collect();
+            handles.extend(clamped(&points).into_iter().enumerate().map(handle));
         }
     }
     handles

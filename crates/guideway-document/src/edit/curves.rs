@@ -102,21 +102,3 @@ pub(super) fn with_changed_run(
     }
     Some(changed)
 }
-
-/// Start of a run of at least three points.
-pub(super) fn start_of(run: &[Point<f64>]) -> Point<f64> {
-    (run[0] + run[1] * 4.0 + run[2]) * (1.0 / 6.0)
-}
-
-/// Moves the first point of a run so that the run starts at `start`, or the second point if
-/// `keeps_first`. The start is the mean of the first three points with the weights 1, 4 and 1.
-pub(super) fn hold_start(run: &mut [Point<f64>], start: Point<f64>, keeps_first: bool) {
-    if run.len() < 4 || start_of(run) == start {
-        return;
-    }
-    if keeps_first {
-        run[1] = (start * 6.0 - run[0] - run[2]) * 0.25;
-    } else {
-        run[0] = start * 6.0 - run[1] * 4.0 - run[2];
-    }
-}

@@ -14,6 +14,7 @@
 //! | `preview` | an edit | what it does, until it is taken back |
 
 mod cells;
+mod clamped;
 mod clip;
 mod copies;
 mod create;
@@ -39,6 +40,7 @@ mod transform;
 mod vehicle_types;
 
 pub use cells::NewCells;
+pub(crate) use clamped::clamped;
 pub use clip::Clip;
 pub use create::NewEdge;
 pub(crate) use curves::runs_of;

@@ -1,12 +1,17 @@
 //! Edits of single control points: move, insert, remove.
 
 use guideway_scene::{EditError, Table};
-use guideway_spline::Point;
+use guideway_spline::{Point, Runs};
 
-use super::curves::{hold_start, runs_of, start_of, with_changed_run};
+use super::clamped::{clamped, unclamped};
+use super::curves::{runs_of, with_changed_run, with_moved_ends};
 use crate::document::Document;
 
-/// Reference to a control point of a path.
+/// Distance of two ends, in meters, up to which they are one.
+const JOINED_M: f64 = 1e-6;
+
+/// Reference to a clamped control point of a path: the first and the last one of a run lie on the
+/// ends of its curve, and those beside them on its tangents there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PointRef {
     /// Row of the path.
@@ -18,40 +23,59 @@ pub struct PointRef {
 }
 
 impl Document {
-    /// Moves a control point. The point at a node, the second or the last but one of the path,
-    /// takes the node along. Other points leave the ends of the path at their nodes, and its runs
-    /// together.
+    /// Moves a control point. One at a node takes the node along, and one where two runs meet moves
+    /// the ends of both; straight runs stay straight. Other points leave the ends of the path at
+    /// their nodes, and its runs together.
     ///
     /// # Errors
     /// As [`Self::transform_selection`], or when the path is unknown.
     pub fn move_point(&mut self, point: PointRef, to_m: Point<f64>) -> Result<(), EditError> {
         const NAME: &str = "move point";
-        if let Some((node, from_m)) = self.node_of_point(point) {
-            let to_m = self.node_position_m(node) + (to_m - from_m);
-            return self.move_nodes(NAME, &[(node, to_m)]);
+        let runs = self.runs_to_edit(point)?;
+        let Some(run) = runs.iter().nth(point.run) else {
+            return Ok(());
+        };
+        let is_start = point.point == 0;
+        if !is_start && point.point + 1 != run.len() {
+            return self.reshape_run(NAME, point, &runs, |points| {
+                points.get_mut(point.point).is_some_and(|p| {
+                    *p = to_m;
+                    true
+                })
+            });
         }
-        self.reshape_run(NAME, point, true, |points| {
-            points.get_mut(point.point).is_some_and(|p| {
-                *p = to_m;
-                true
-            })
-        })
+        let by = to_m - clamped(run)[point.point];
+        match self.node_of_end(point, is_start, &runs) {
+            Some(node) => {
+                let to_m = self.node_position_m(node) + by;
+                self.move_nodes(NAME, &[(node, to_m)])
+            }
+            None => {
+                let moved = with_moved_joint(&runs, point.run, is_start, by);
+                self.perform(NAME, self.reshape(vec![point.path], &[moved]))
+            }
+        }
     }
 
-    /// The node that a control point takes along, and the position of the point.
-    fn node_of_point(&self, point: PointRef) -> Option<(u32, Point<f64>)> {
-        if !self.scene.exists(Table::Paths, point.path) {
-            return None;
+    /// The runs of the path of a point.
+    fn runs_to_edit(&self, point: PointRef) -> Result<Runs, EditError> {
+        let path = point.path;
+        match self.scene.exists(Table::Paths, path) {
+            true => Ok(runs_of(self.layout().paths.get(path as usize))),
+            false => Err(EditError::UnknownPath {
+                path,
+                rows: self.scene.row_count(),
+            }),
         }
+    }
+
+    /// The node at the start or end of a run, if that is an end of the path.
+    fn node_of_end(&self, point: PointRef, is_start: bool, runs: &Runs) -> Option<u32> {
         let path = self.layout().paths.get(point.path as usize);
-        let runs = runs_of(path);
-        let run = runs.iter().nth(point.run)?;
-        let start = path
-            .start_node()
-            .filter(|_| point.run == 0 && point.point == 1);
-        let is_last = point.run + 1 == runs.len() && point.point + 2 == run.len();
-        let node = start.or_else(|| path.end_node().filter(|_| is_last))?;
-        Some((node, run[point.point]))
+        match is_start {
+            true => path.start_node().filter(|_| point.run == 0),
+            false => path.end_node().filter(|_| point.run + 1 == runs.len()),
+        }
     }
 
     /// Inserts a control point after another, halfway to the next. The curve changes slightly
@@ -60,7 +84,8 @@ impl Document {
     /// # Errors
     /// As [`Self::move_point`].
     pub fn insert_point(&mut self, point: PointRef) -> Result<(), EditError> {
-        self.reshape_run("insert point", point, false, |points| {
+        let runs = self.runs_to_edit(point)?;
+        self.reshape_run("insert point", point, &runs, |points| {
             let Some([a, b]) = points
                 .get(point.point..)
                 .and_then(|rest| rest.first_chunk())
@@ -78,7 +103,8 @@ impl Document {
     /// # Errors
     /// As [`Self::move_point`].
     pub fn remove_point(&mut self, point: PointRef) -> Result<(), EditError> {
-        self.reshape_run("remove point", point, false, |points| {
+        let runs = self.runs_to_edit(point)?;
+        self.reshape_run("remove point", point, &runs, |points| {
             let exists = point.point < points.len();
             if exists {
                 points.remove(point.point);
@@ -87,50 +113,32 @@ impl Document {
         })
     }
 
-    /// Changes the points of one run; no step if `change` returns false. The run still starts and
-    /// ends where a node or another run is. `keeps_point` leaves the named point where `change` put
-    /// it.
+    /// Changes the clamped points of one run; no step if `change` returns false. The run still
+    /// starts and ends where a node or another run is.
     fn reshape_run(
         &mut self,
         name: &'static str,
         point: PointRef,
-        keeps_point: bool,
+        runs: &Runs,
         change: impl FnOnce(&mut Vec<Point<f64>>) -> bool,
     ) -> Result<(), EditError> {
-        let rows = self.scene.row_count();
-        if !self.scene.exists(Table::Paths, point.path) {
-            return Err(EditError::UnknownPath {
-                path: point.path,
-                rows,
-            });
-        }
         let path = self.layout().paths.get(point.path as usize);
-        let old = runs_of(path);
         let holds_start = point.run > 0 || path.start_node().is_some();
-        let holds_end = point.run + 1 < old.len() || path.end_node().is_some();
-        let changed = with_changed_run(&old, point.run, |points| {
-            let start = start_of(points);
-            points.reverse();
-            let end = start_of(points);
-            points.reverse();
-            if !change(points) {
+        let holds_end = point.run + 1 < runs.len() || path.end_node().is_some();
+        let changed = with_changed_run(runs, point.run, |run| {
+            let before = clamped(run);
+            let mut points = before.clone();
+            if !change(&mut points) || points.len() < 4 {
                 return false;
             }
-            let keeps = |index: Option<usize>| keeps_point && index == Some(point.point);
-            let keeps_first = keeps(Some(0));
-            let keeps_last = keeps(points.len().checked_sub(1));
+            let last = points.len() - 1;
             if holds_start {
-                hold_start(points, start, keeps_first);
+                points[0] = before[0];
             }
             if holds_end {
-                points.reverse();
-                hold_start(points, end, keeps_last);
-                points.reverse();
+                points[last] = before[before.len() - 1];
             }
-            // Holding the end by the last but one of four points has moved the start.
-            if holds_start && keeps_last {
-                hold_start(points, start, false);
-            }
+            *run = unclamped(&points);
             true
         });
         match changed {
@@ -138,4 +146,32 @@ impl Document {
             None => Ok(()),
         }
     }
+}
+
+/// The curve with the start or end of one run moved, and that of the run that meets it there.
+fn with_moved_joint(runs: &Runs, index: usize, is_start: bool, by: Point<f64>) -> Runs {
+    let ends = |run: &[Point<f64>]| {
+        let points = clamped(run);
+        [points[0], points[points.len() - 1]]
+    };
+    let joint = runs
+        .iter()
+        .nth(index)
+        .map(|run| ends(run)[usize::from(!is_start)]);
+    let mut moved = Runs::default();
+    for (i, run) in runs.iter().enumerate() {
+        let [start, end] = ends(run);
+        let meets = |end: Point<f64>| joint.is_some_and(|joint| joint.distance(end) <= JOINED_M);
+        // Runs follow each other: only the neighbor on that side can meet it.
+        let moves_start = i == index && is_start || !is_start && i == index + 1 && meets(start);
+        let moves_end = i == index && !is_start || is_start && i + 1 == index && meets(end);
+        let shift = |moves| if moves { by } else { Point::new(0.0, 0.0) };
+        let mut one = Runs::default();
+        one.push(run);
+        if moves_start || moves_end {
+            one = with_moved_ends(&one, shift(moves_start), shift(moves_end));
+        }
+        one.iter().for_each(|run| moved.push(run));
+    }
+    moved
 }

@@ -64,7 +64,7 @@ fn undo_memory_grows_with_the_changes_not_the_layout() {
             let point = PointRef {
                 path: step as u32 % moved,
                 run: 0,
-                point: 0,
+                point: 1,
             };
             document.move_point(point, p(step as f64, 0.0)).unwrap();
         }

@@ -1,8 +1,9 @@
 //! Nodes and stations: how they move, and how paths follow them.
 
 use guideway_document::{Document, Elements, Neighbors, PointRef};
+use guideway_layout::{Layout, NewPath};
 use guideway_scene::EditError;
-use guideway_spline::Affine;
+use guideway_spline::{Affine, Point, Runs, uniform};
 
 use crate::site::{document_of, ends, is_near, lanes, p, select, two_joined};
 
@@ -66,6 +67,58 @@ fn detached_paths_get_nodes_of_their_own() {
     assert_eq!(at.len(), 2, "both are back");
 }
 
+/// The Bezier points of the only segment of a path.
+fn bezier(document: &Document, path: usize) -> [Point<f64>; 4] {
+    let run = document.layout().paths.get(path).runs().next().unwrap();
+    uniform::to_bezier(&run.segments().next().unwrap())
+}
+
+#[test]
+fn ends_without_nodes_and_where_runs_meet_are_moved() {
+    let mut runs = Runs::default();
+    runs.push_line(p(0.0, 0.0), p(6.0, 0.0));
+    runs.push_line(p(6.0, 0.0), p(6.0, 6.0));
+    let mut layout = Layout::default();
+    layout.paths.push(&NewPath {
+        runs: &runs,
+        ..NewPath::default()
+    });
+    let mut document = document_of(layout);
+    let corners = |document: &Document| -> Vec<Point<f64>> {
+        let runs = document.layout().paths.get(0).runs();
+        let beziers = runs.map(|run| uniform::to_bezier(&run.segments().next().unwrap()));
+        let all: Vec<[Point<f64>; 4]> = beziers.collect();
+        for [a, b, c, d] in &all {
+            let thirds = [a.lerp(*d, 1.0 / 3.0), a.lerp(*d, 2.0 / 3.0)];
+            assert!(is_near(*b, thirds[0]) && is_near(*c, thirds[1]), "straight");
+        }
+        all.iter().flat_map(|[a, _, _, d]| [*a, *d]).collect()
+    };
+    let near = |document: &Document, expected: [Point<f64>; 4]| {
+        corners(document)
+            .iter()
+            .zip(expected)
+            .all(|(&a, b)| is_near(a, b))
+    };
+    let at = |run, point| PointRef {
+        path: 0,
+        run,
+        point,
+    };
+    let last = p(6.0, 6.0);
+    for (point, to, start, corner) in [
+        (at(0, 3), p(7.0, 1.0), p(0.0, 0.0), p(7.0, 1.0)),
+        (at(1, 0), p(8.0, 2.0), p(0.0, 0.0), p(8.0, 2.0)),
+        (at(0, 0), p(-1.0, 1.0), p(-1.0, 1.0), p(8.0, 2.0)),
+    ] {
+        document.move_point(point, to).unwrap();
+        assert!(near(&document, [start, corner, corner, last]), "{point:?}");
+    }
+    document.move_point(at(1, 3), p(9.0, 9.0)).unwrap();
+    let corner = p(8.0, 2.0);
+    assert!(near(&document, [p(-1.0, 1.0), corner, corner, p(9.0, 9.0)]));
+}
+
 #[test]
 fn control_points_take_nodes_along_or_leave_them() {
     let mut document = two_joined();
@@ -74,20 +127,20 @@ fn control_points_take_nodes_along_or_leave_them() {
         run: 0,
         point,
     };
-    let before = document.layout().paths.get(1).runs().next().unwrap();
-    let before: Vec<_> = before.iter().collect();
+    let before = bezier(&document, 1);
     let by = p(0.0, 2.0);
-    document.move_point(at(1), before[1] + by).unwrap();
+    document.move_point(at(0), before[0] + by).unwrap();
     assert!(is_near(document.node_position_m(1), p(10.0, 2.0)));
     assert!(is_near(ends(&document, 0).1, p(10.0, 2.0)));
     assert!(is_near(ends(&document, 1).0, p(10.0, 2.0)));
     document.undo().unwrap();
-    for point in [0, 3] {
+    for point in [1, 2] {
         document.move_point(at(point), before[point] + by).unwrap();
         let (start, end) = ends(&document, 1);
         assert!(is_near(start, p(10.0, 0.0)) && is_near(end, p(20.0, 0.0)));
-        let run = document.layout().paths.get(1).runs().next().unwrap();
-        assert_eq!(run.iter().nth(point), Some(before[point] + by));
+        let now = bezier(&document, 1);
+        assert!(is_near(now[point], before[point] + by));
+        assert!(is_near(now[3 - point], before[3 - point]));
         document.undo().unwrap();
     }
     document.insert_point(at(0)).unwrap();

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use guideway_document::{Document, Elements, PointRef, SnapOptions, drawn_path};
 use guideway_layout::{Layout, PathRef, Quantity, Value, WrittenCurve};
-use guideway_spline::{Affine, Point};
+use guideway_spline::{Affine, Point, uniform};
 
 use crate::site::{document, document_of, ends, is_near, p, select, two_joined};
 
@@ -176,11 +176,16 @@ fn moves_inserts_and_removes_control_points() {
         let mut runs = document.layout().paths.get(0).runs();
         runs.next().unwrap().iter().collect()
     };
-    document.move_point(point, p(0.0, 2.0)).unwrap();
-    assert_eq!(points(&document)[1], p(0.0, 2.0));
+    document.move_point(point, p(3.0, 2.0)).unwrap();
+    let [start, second, third, end] = {
+        let segment = points(&document).try_into().unwrap();
+        uniform::to_bezier(&segment)
+    };
+    assert!(is_near(second, p(3.0, 2.0)));
     document.insert_point(point).unwrap();
     assert_eq!(points(&document).len(), 5);
-    assert_eq!(points(&document)[2], p(5.0, 1.0));
+    assert!(is_near(points(&document)[2], second.lerp(third, 0.5)));
+    assert!(is_near(ends(&document, 0).0, start) && is_near(ends(&document, 0).1, end));
     document.remove_point(point).unwrap();
     assert_eq!(points(&document).len(), 4);
     document.remove_point(point).unwrap();
@@ -203,7 +208,7 @@ fn refining_preserves_the_curve() {
         assert_eq!(new.runs().next().unwrap().len(), 5);
         for segment in new.runs().flat_map(|run| run.segments()) {
             for t in [0.0, 0.3, 0.8, 1.0] {
-                let at = guideway_spline::uniform::point(&segment, t);
+                let at = uniform::point(&segment, t);
                 let layout = two_joined().to_layout();
                 let off = guideway_document::nearest(&layout, row as u32, at, 1e-9).unwrap();
                 assert!(off.distance_m < 1e-7, "{off:?}");
