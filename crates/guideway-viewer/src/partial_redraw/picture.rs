@@ -94,7 +94,7 @@ impl Pictures {
 }
 
 impl Picture {
-    /// What shows the picture in a window of these points.
+    /// The shape that shows the picture in a window of these points.
     pub(super) fn shape(&self, window: Rect) -> Shape {
         Callback::new_paint_callback(window, self.copy.clone()).into()
     }

@@ -72,7 +72,7 @@ impl FrameTriangles {
         })
     }
 
-    /// What draws the frame in these rectangles and nothing elsewhere.
+    /// The primitives that draw the frame in these rectangles and nothing elsewhere.
     pub(super) fn within(&self, rects: &[PixelRect]) -> Vec<ClippedPrimitive> {
         let mut parts = Vec::new();
         for &rect in rects {

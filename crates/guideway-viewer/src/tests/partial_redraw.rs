@@ -27,7 +27,7 @@ struct Both {
     frames: Arc<Mutex<Frames>>,
 }
 
-/// What the frames showed.
+/// The pixels that the frames showed.
 #[derive(Default)]
 struct Frames {
     count: usize,

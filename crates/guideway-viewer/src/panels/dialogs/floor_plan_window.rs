@@ -19,7 +19,8 @@ const MAX_PAGE: u32 = 9_999;
 /// Width of the dialog, in points.
 const WIDTH: f32 = 280.0;
 
-/// Shows the dialog if it is open, first with its lower right corner at `corner`, and returns the actions of changes.
+/// Shows the dialog if it is open, first with its lower right corner at `corner`, and returns the
+/// actions of changes.
 pub(crate) fn show(
     ctx: &Context,
     editor: &mut PlanEditor,
