@@ -69,8 +69,9 @@ fn detached_paths_get_nodes_of_their_own() {
 
 /// The Bezier points of the only segment of a path.
 fn bezier(document: &Document, path: usize) -> [Point<f64>; 4] {
-    let run = document.layout().paths.get(path).runs().next().unwrap();
-    uniform::to_bezier(&run.segments().next().unwrap())
+    let mut runs = document.layout().paths.get(path).runs();
+    let segment = runs.next().and_then(|run| run.segments().next());
+    uniform::to_bezier(&segment.expect("the path has a segment"))
 }
 
 #[test]
