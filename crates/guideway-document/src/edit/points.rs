@@ -1,7 +1,7 @@
 //! Edits of single control points: move, insert, remove.
 
 use guideway_scene::{EditError, Table};
-use guideway_spline::{Point, Runs};
+use guideway_spline::{Point, Runs, uniform};
 
 use super::clamped::{clamped, unclamped};
 use super::curves::{runs_of, with_changed_run, with_moved_ends};
@@ -151,8 +151,11 @@ impl Document {
 /// The curve with the start or end of one run moved, and that of the run that meets it there.
 fn with_moved_joint(runs: &Runs, index: usize, is_start: bool, by: Point<f64>) -> Runs {
     let ends = |run: &[Point<f64>]| {
-        let points = clamped(run);
-        [points[0], points[points.len() - 1]]
+        let last = run.len() - 4;
+        [
+            uniform::start(uniform::segment(run, 0)),
+            uniform::end(uniform::segment(run, last)),
+        ]
     };
     let joint = runs
         .iter()

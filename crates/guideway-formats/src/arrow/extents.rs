@@ -4,7 +4,8 @@
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type, UInt32Type};
 use arrow_array::{Array, RecordBatch};
-use guideway_spline::{Bounds, Point, greater, lesser};
+use guideway_layout::RunPoints;
+use guideway_spline::{Bounds, Point};
 use serde_json::{Value, json};
 
 use super::column_names::{CONTROL_POINTS, PART};
@@ -105,25 +106,11 @@ fn bounds(column: &dyn Array) -> Option<Bounds<f64>> {
     let list = column.as_list_opt::<i32>()?;
     let points = list.values().as_fixed_size_list_opt()?;
     let numbers = points.values();
-    if let Some(numbers) = numbers.as_primitive_opt::<Float32Type>() {
-        bounds_of(numbers.values(), f64::from)
+    let points = if let Some(numbers) = numbers.as_primitive_opt::<Float32Type>() {
+        RunPoints::F32(bytemuck::try_cast_slice(numbers.values()).ok()?)
     } else {
         let numbers = numbers.as_primitive_opt::<Float64Type>()?;
-        bounds_of(numbers.values(), |number| number)
-    }
-}
-
-fn bounds_of<T: Copy>(numbers: &[T], wide: impl Fn(T) -> f64) -> Option<Bounds<f64>> {
-    let (points, _) = numbers.as_chunks::<2>();
-    let mut points = points.iter().map(|[x, y]| Point::new(wide(*x), wide(*y)));
-    let first = points.next()?;
-    let mut bounds = Bounds {
-        min: first,
-        max: first,
+        RunPoints::F64(bytemuck::try_cast_slice(numbers.values()).ok()?)
     };
-    for p in points {
-        bounds.min = Point::new(lesser(p.x, bounds.min.x), lesser(p.y, bounds.min.y));
-        bounds.max = Point::new(greater(p.x, bounds.max.x), greater(p.y, bounds.max.y));
-    }
-    Some(bounds)
+    points.bounds()
 }

@@ -82,7 +82,7 @@ pub(crate) fn find_lines_within<'d>(
     text: &str,
     position: TextPosition,
 ) {
-    let mut findings: Vec<&mut Diagnostic> = findings.collect();
+    let findings: Vec<&mut Diagnostic> = findings.collect();
     let steps = |finding: &&mut Diagnostic| {
         let within = finding.place.element.strip_prefix(of);
         within.unwrap_or_default().to_owned()
@@ -90,7 +90,7 @@ pub(crate) fn find_lines_within<'d>(
     let elements: Vec<String> = findings.iter().map(steps).collect();
     let starts = starts(elements.iter().map(|within| steps_of(within).skip(1)), text);
     let starts = starts.into_iter().map(Option::unwrap_or_default);
-    let mut in_order: Vec<(usize, &mut &mut Diagnostic)> = starts.zip(&mut findings).collect();
+    let mut in_order: Vec<(usize, &mut Diagnostic)> = starts.zip(findings).collect();
     in_order.sort_by_key(|&(start, _)| start);
     let (mut at, mut position) = (0, position);
     for (start, finding) in in_order {
