@@ -92,9 +92,13 @@ export interface Look {
   pxPerPoint?: number;
   level?: string;
   colorBy?: string;
+  palette?: string;
+  range?: [number, number];
   color?: string;
   background?: string;
   shade?: "auto" | "color" | "density";
+  floorPlan?: boolean;
+  envelope?: string;
   arrows?: boolean;
   nodes?: boolean;
   stations?: boolean;
@@ -111,6 +115,10 @@ export interface Shared {
   name: string;
   title: string;
   look: Partial<Look>;
+  floorPlan?: {
+    name: string;
+    placement: { pxPerM: number; rotateDeg: number; offset: Point } | null;
+  };
 }
 
 export interface Picture {

@@ -47,6 +47,9 @@ function close(): void {
 function forget(): void {
   pointer.forget();
   measured = undefined;
+  // They name elements and areas of the layout that was open.
+  delete map.look.route;
+  delete map.look.envelope;
   panels.clear();
 }
 
@@ -90,6 +93,8 @@ function show(opened: Info): void {
   const look = shared?.look ?? {};
   panels.setLook({ shade: "auto", ...look });
   panels.readLook(map.look);
+  // Whoever shared it has checked it.
+  if (look.envelope) map.look.envelope = look.envelope;
   if (look.center && look.pxPerM) {
     // A shared view shows at least as much as its sender saw.
     const ratio = Math.min(
@@ -221,6 +226,21 @@ async function showRoute(): Promise<void> {
   void map.refresh();
 }
 
+async function showEnvelope(text: string): Promise<void> {
+  delete map.look.envelope;
+  byId("envelope-text").textContent = "";
+  try {
+    if (text) {
+      await engine.call("envelope", [text]);
+      map.look.envelope = text;
+    }
+  } catch (error) {
+    if (!(error instanceof GuidewayError)) throw error;
+    byId("envelope-text").textContent = `${error.message}. ${error.remedy}.`;
+  }
+  void map.refresh();
+}
+
 async function check(): Promise<void> {
   if (!info || panels.hasFindings) return;
   const found = await busy(t("checking"), () =>
@@ -313,6 +333,8 @@ function connect(): void {
     byId("route-text").textContent = "";
     void map.refresh();
   };
+  byId("envelope").onchange = (event) =>
+    void showEnvelope((event.target as HTMLInputElement).value.trim());
   for (const button of document.querySelectorAll<HTMLElement>("[data-picture]")) {
     button.onclick = () => void savePicture(button.dataset["picture"]!);
   }
@@ -339,6 +361,18 @@ function connect(): void {
   engine.onprogress = (share) => (byId<HTMLProgressElement>("progress").value = share);
 }
 
+/** Opens the layout and the floor plan that are in the page. */
+async function openShared({ name, floorPlan }: Shared): Promise<Info> {
+  const packed = (id: string) => byId(id).textContent!.trim();
+  const info = await engine.call<Info>("openPacked", [name, packed("layout")]);
+  if (floorPlan) {
+    const { name, placement } = floorPlan;
+    await engine.call("floorPlan", [name, packed("floor-plan"), placement]);
+    byId("floor-plan-of").hidden = false;
+  }
+  return info;
+}
+
 async function start(): Promise<void> {
   document.documentElement.lang = language;
   panels.translate();
@@ -353,10 +387,7 @@ async function start(): Promise<void> {
   document.documentElement.dataset["ready"] = String(Math.round(performance.now()));
   if (!shared) return;
   for (const id of ["open", "start"]) byId(id).hidden = true;
-  const packed = byId("layout").textContent!.trim();
-  const opened = await busy(`${shared.name}: ${t("reading")}`, () =>
-    engine.call<Info>("openPacked", [shared.name, packed]),
-  );
+  const opened = await busy(`${shared.name}: ${t("reading")}`, () => openShared(shared));
   if (opened) show(opened);
 }
 

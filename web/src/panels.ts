@@ -5,7 +5,20 @@ import type { Reference, Summary } from "./answers.js";
 import { DARK, LIGHT } from "./map.js";
 import { count, meters, t } from "./text.js";
 
-const SWITCHES = ["arrows", "nodes", "stations", "labels", "grid", "scaleBar", "legend"] as const;
+const SWITCHES = [
+  "arrows",
+  "nodes",
+  "stations",
+  "labels",
+  "grid",
+  "scaleBar",
+  "legend",
+  "floorPlan",
+] as const;
+/** Switches that are on in every layout. */
+const ALWAYS = ["scaleBar", "floorPlan"];
+/** The palettes of the command. */
+const PALETTES = ["warm", "viridis", "plasma", "cividis", "gray"];
 /** Paths above which the marks of all of them are off at first. */
 const MANY = 20_000;
 
@@ -44,16 +57,26 @@ export class Panels {
   ontab: (tab: string) => void = () => {};
   ontarget: (target: Info["targets"][number]) => void = () => {};
   hasFindings = false;
+  /** The numbers at the ends of the palette, of whoever shared the layout. */
+  private range: Look["range"];
 
   constructor() {
+    options(
+      "palette",
+      PALETTES.map((name) => [name, name]),
+    );
     for (const tab of this.tabs()) {
       tab.onclick = () => this.tab(tab.dataset["tab"]!);
       tab.onkeydown = (event) => this.tabKey(event, tab);
     }
-    for (const id of ["level", "color-by", "shade", ...SWITCHES]) {
+    for (const id of ["level", "color-by", "palette", "shade", ...SWITCHES]) {
       byId(id).onchange = () => {
-        // Colors by a column mean little without their legend.
-        if (id === "color-by") this.check("legend", this.value("color-by") !== "");
+        if (id === "color-by") {
+          // Colors by a column mean little without their legend.
+          this.check("legend", this.value("color-by") !== "");
+          this.range = undefined;
+          this.showPalette();
+        }
         this.onlook();
       };
     }
@@ -103,6 +126,9 @@ export class Panels {
       else delete look[name];
     }
     look.shade = this.value("shade") as NonNullable<Look["shade"]>;
+    look.palette = this.value("palette");
+    if (this.range) look.range = this.range;
+    else delete look.range;
   }
 
   /** Chooses what a look says. */
@@ -112,6 +138,10 @@ export class Panels {
     }
     byId<HTMLSelectElement>("level").value = look.level ?? "";
     byId<HTMLSelectElement>("color-by").value = look.colorBy ?? "";
+    byId<HTMLSelectElement>("palette").value = look.palette ?? PALETTES[0]!;
+    byId<HTMLInputElement>("envelope").value = look.envelope ?? "";
+    this.range = look.range;
+    this.showPalette();
     const shade = byId<HTMLSelectElement>("shade");
     shade.querySelector("[value=auto]")?.remove();
     if (look.shade === "auto") shade.add(new Option("", "auto"));
@@ -123,10 +153,10 @@ export class Panels {
     for (const id of ["facts", "element", "found", "findings", "changes", "targets"]) {
       byId(id).replaceChildren();
     }
-    for (const id of ["found-count", "findings-count", "route-text", "losses", "status"]) {
+    for (const id of ["found-count", "findings-count", "route-text", "envelope-text", "losses", "status"]) {
       byId(id).textContent = "";
     }
-    for (const id of ["query", "from", "to"]) byId<HTMLInputElement>(id).value = "";
+    for (const id of ["query", "from", "to", "envelope"]) byId<HTMLInputElement>(id).value = "";
   }
 
   showInfo(info: Info): void {
@@ -150,7 +180,7 @@ export class Panels {
     const types = info.vehicleTypes.map((name): [string, string] => [name, name]);
     options("vehicle-type", types);
     byId("vehicle-type").hidden = types.length < 2;
-    for (const name of SWITCHES) this.check(name, name === "scaleBar" || info.paths < MANY);
+    for (const name of SWITCHES) this.check(name, ALWAYS.includes(name) || info.paths < MANY);
     this.check("grid", false);
     for (const target of info.targets) {
       item(byId("targets"), target.name, "", () => this.ontarget(target));
@@ -222,6 +252,11 @@ export class Panels {
     const next = tabs[(tabs.indexOf(tab) + step + tabs.length) % tabs.length]!;
     this.tab(next.dataset["tab"]!);
     next.focus();
+  }
+
+  /** Only colors by a column have a palette. */
+  private showPalette(): void {
+    byId("palette-of").hidden = this.value("color-by") === "";
   }
 
   private check(id: string, isOn: boolean): void {

@@ -31,6 +31,11 @@ const german: Record<string, string> = {
   "Scale bar": "Maßstab",
   "Legend": "Legende",
   "Dark": "Dunkel",
+  "Palette": "Palette",
+  "Floor plan": "Grundriss",
+  "Swept areas": "Überstrichene Flächen",
+  "Length x width of the vehicle in meters, such as 2x1.2":
+    "Länge x Breite des Fahrzeugs in Metern, etwa 2x1.2",
   "paths": "Pfade",
   "nodes": "Knoten",
   "stations": "Stationen",

@@ -49,6 +49,11 @@ const calls: Record<string, (...args: never[]) => unknown> = {
   open: (name: string, bytes: ArrayBuffer) => replace(name, new Uint8Array(bytes)),
   openPacked: async (name: string, base64: string) =>
     replace(name, new Uint8Array(await unpacked(base64))),
+  floorPlan: async (name: string, base64: string, placement: unknown) => {
+    const bytes = new Uint8Array(await unpacked(base64));
+    opened().set_floor_plan(name, bytes, JSON.stringify(placement));
+  },
+  envelope: (text: string) => opened().check_envelope(text),
   render: (look: { width: number; height: number }) => {
     const drawn = opened().render(JSON.stringify(look));
     const report = JSON.parse(drawn.report);

@@ -224,12 +224,50 @@ async function sharedPageOpensFromDisk() {
   console.log(`shared page: ${(statSync(file).size / 1e6).toFixed(2)} MB`);
 }
 
+async function sharedFloorPlanAndSweptAreasAreThoseOfTheCommand() {
+  const [drawing, image] = [join(folder, "plan.dxf"), join(folder, "plan.png")];
+  guideway("convert", site, drawing, "--quiet");
+  guideway("render", site, "-o", image, "--quiet", "--size", "300x200");
+  const view = ["--center", "36,8", "--scale", "12.5"];
+  const colors = ["--color-by", "maxSpeed", "--palette", "viridis", "--range", "0..3", "--legend"];
+  const vehicle = ["--envelope", "2x1.2"];
+  for (const plan of [`${drawing}@offset=3,2`, `${image}@px-per-m=4,rotate=20,offset=10,-5`]) {
+    const args = [...view, ...colors, ...vehicle, "--floor-plan", plan];
+    const [file, expected] = [join(folder, "plan.html"), join(folder, "plan-expected.png")];
+    const size = ["--size", "700x400", "--method", "cpu", "--shade", "color"];
+    guideway("render", site, "-o", expected, "--quiet", ...args, ...size);
+    guideway("render", site, "-o", file, "--quiet", ...args);
+    const page = await open(pathToFileURL(file).href);
+    await page.waitForFunction(() => guideway.map.drawn > 0);
+    const look = await page.evaluate(() => ({ ...guideway.map.look }));
+    const off = { arrows: false, nodes: false, stations: false, labels: false, scaleBar: false };
+    const fixed = { width: 700, height: 400, center: [36, 8], pxPerM: 12.5, shade: "color" };
+    const all = { ...look, ...off, ...fixed };
+    const made = await pngOf(page, all);
+    assert.ok(isSame(made, readFileSync(expected)), `${plan}: the picture differs`);
+    for (const without of [{ floorPlan: false }, { envelope: undefined }, { range: undefined }]) {
+      const other = await pngOf(page, { ...all, ...without });
+      assert.ok(!isSame(other, made), `nothing differs without ${Object.keys(without)}`);
+    }
+    await page.click("[data-tab=view]");
+    assert.ok(await page.isVisible("#floorPlan"));
+    assert.equal(await page.inputValue("#palette"), "viridis");
+    await page.fill("#envelope", "2xwide");
+    await page.press("#envelope", "Enter");
+    await page.waitForFunction(() => /2xwide/.test(document.body.textContent));
+    assert.equal(await page.evaluate(() => guideway.map.look.envelope), undefined);
+    await page.screenshot({ path: join(shots, `plan-${basename(plan).slice(5, 8)}.png`) });
+    await page.context().close();
+  }
+}
+
 try {
   await picturesAreThoseOfTheCommand();
   await refusedFilesAreRefusedInTheWordsOfTheCommand();
   await handsAndKeysWork();
   await memoryStaysFlatOverPans();
   await sharedPageOpensFromDisk();
+  await sharedFloorPlanAndSweptAreasAreThoseOfTheCommand();
 } finally {
   await browser.close();
 }

@@ -29,6 +29,27 @@ impl EnvelopeSource {
         }
     }
 
+    /// Succeeds if at least one path has an envelope.
+    ///
+    /// # Errors
+    /// When none has; the most frequent reason. A layout without paths has nothing to miss.
+    pub fn require_any(self, layout: &Layout) -> Result<(), NoEnvelope> {
+        let mut without = [0_u64; NoEnvelope::ALL.len()];
+        for path in 0..layout.paths.len() {
+            match self.sweep(layout, path) {
+                Ok(_) => return Ok(()),
+                Err(reason) => without[reason as usize] += 1,
+            }
+        }
+        let most_frequent = NoEnvelope::ALL
+            .into_iter()
+            .max_by_key(|&reason| without[reason as usize]);
+        match most_frequent {
+            Some(reason) if without[reason as usize] > 0 => Err(reason),
+            _ => Ok(()),
+        }
+    }
+
     /// The area swept along a path.
     ///
     /// # Errors

@@ -39,6 +39,11 @@ impl Palette {
         Self::Gray,
     ];
 
+    /// The palette of a name; `None` if there is none.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|palette| palette.name() == name)
+    }
+
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {

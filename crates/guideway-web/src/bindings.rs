@@ -54,6 +54,22 @@ impl JsSession {
         opened.map(Self).map_err(thrown)
     }
 
+    /// See [`Session::set_floor_plan`].
+    pub fn set_floor_plan(
+        &mut self,
+        name: &str,
+        bytes: Vec<u8>,
+        placement: &str,
+    ) -> Result<(), JsValue> {
+        let set = self.0.set_floor_plan(name, bytes, placement);
+        set.map_err(thrown)
+    }
+
+    /// See [`Session::check_envelope`].
+    pub fn check_envelope(&self, text: &str) -> Result<(), JsValue> {
+        self.0.check_envelope(text).map_err(thrown)
+    }
+
     /// See [`Session::info`].
     pub fn info(&self) -> String {
         self.0.info()

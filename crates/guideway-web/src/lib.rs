@@ -9,6 +9,7 @@
 //! | `session` | opens a layout; pictures, findings, routes, differences, files |
 //! | `look` | what a picture shows, as the page asks for it |
 //! | `kept_method` | the render method, which keeps what it prepared for the last scene |
+//! | `floor_plan` | the drawing or the image below the paths |
 //! | `elements` | properties, outlines, hit test, search |
 //! | `answers` | layouts, findings, routes and changes as JSON |
 //! | `bindings` | the names of the calls in JavaScript |
@@ -17,6 +18,7 @@ mod answers;
 #[cfg(target_arch = "wasm32")]
 mod bindings;
 mod elements;
+mod floor_plan;
 mod kept_method;
 mod look;
 mod session;

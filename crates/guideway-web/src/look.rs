@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
-use guideway::compose::{Decorations, MarkedRoute, Picture, Viewport};
+use guideway::compose::{Decorations, MarkedRoute, Picture, SweptAreas, Viewport};
+use guideway::envelope::EnvelopeSource;
 use guideway::layout::UserError;
 use guideway::scene::density::ToneMap;
-use guideway::scene::{ColorBy, FrameSize, NumberColors, Rgba, Scene, SceneOptions, Shading};
+use guideway::scene::{
+    ColorBy, FrameSize, NumberColors, Palette, Rgba, Scene, SceneOptions, Shading,
+};
 use guideway::spline::Point;
 use serde::Deserialize;
 
@@ -24,10 +27,17 @@ pub(crate) struct Look {
     /// Name or id of the only level that is shown.
     level: Option<String>,
     color_by: Option<String>,
+    /// The colors of numbers: the name of a palette, and the numbers at its ends.
+    palette: Option<String>,
+    range: Option<[f64; 2]>,
     /// RRGGBB; black on white by default.
     color: Option<String>,
     background: Option<String>,
     pub(crate) shade: Shade,
+    /// Shows the floor plan, if there is one.
+    pub(crate) floor_plan: bool,
+    /// The vehicle whose swept areas are shown: `LENGTHxWIDTH[,REAR]` in meters, or `file`.
+    envelope: Option<String>,
     arrows: bool,
     nodes: bool,
     stations: bool,
@@ -62,7 +72,27 @@ pub(crate) enum Shade {
 }
 
 /// The part of a look that decides the scene: looks with the same key share it.
-pub(crate) type SceneKey = (Option<String>, Option<String>, Rgba, Rgba);
+#[derive(PartialEq)]
+pub(crate) struct SceneKey {
+    level: Option<String>,
+    color_by: Option<String>,
+    color: Rgba,
+    numbers: NumberColors,
+}
+
+impl SceneKey {
+    /// The options of the scene.
+    pub(crate) fn scene_options(&self) -> SceneOptions {
+        SceneOptions {
+            color: Some(self.color),
+            color_by: self.color_by.clone().map(|column| ColorBy { column }),
+            numbers: self.numbers,
+            level: self.level.clone(),
+            has_common_colors: false,
+            has_gray_structure: true,
+        }
+    }
+}
 
 impl Look {
     pub(crate) fn parse(json: &str) -> Result<Self, UserError> {
@@ -71,24 +101,20 @@ impl Look {
     }
 
     pub(crate) fn scene_key(&self) -> Result<SceneKey, UserError> {
-        let color = rgba(self.color.as_deref(), Rgba::BLACK)?;
-        let background = rgba(self.background.as_deref(), Rgba::WHITE)?;
-        Ok((self.level.clone(), self.color_by.clone(), color, background))
-    }
-
-    /// The options of the scene of a key.
-    pub(crate) fn scene_options((level, color_by, color, background): &SceneKey) -> SceneOptions {
-        SceneOptions {
-            color: Some(*color),
-            color_by: color_by.clone().map(|column| ColorBy { column }),
+        let palette = self.palette.as_deref().map(|name| {
+            let unknown = || usage(format!("no palette is called `{name}`"));
+            Palette::named(name).ok_or_else(unknown)
+        });
+        Ok(SceneKey {
+            level: self.level.clone(),
+            color_by: self.color_by.clone(),
+            color: rgba(self.color.as_deref(), Rgba::BLACK)?,
             numbers: NumberColors {
-                background: *background,
-                ..NumberColors::default()
+                palette: palette.transpose()?.unwrap_or_default(),
+                range: self.range,
+                background: rgba(self.background.as_deref(), Rgba::WHITE)?,
             },
-            level: level.clone(),
-            has_common_colors: false,
-            has_gray_structure: true,
-        }
+        })
     }
 
     /// Size and view, as far as they are asked for.
@@ -113,6 +139,11 @@ impl Look {
         if self.shade == Shade::Density {
             picture.style.shading = Shading::Density(ToneMap::Log);
         }
+        let vehicle = self.envelope.as_deref().map(vehicle).transpose()?;
+        picture.backdrop.swept = vehicle.map(|vehicle| SweptAreas {
+            vehicle,
+            rows: None,
+        });
         picture.decorations = Decorations {
             has_grid: self.grid,
             has_zones: true,
@@ -133,6 +164,21 @@ impl Look {
     pub(crate) fn has_marks(&self) -> bool {
         self.arrows || self.nodes || self.stations || self.labels
     }
+}
+
+/// The vehicle of a text.
+///
+/// # Errors
+/// When the text describes none.
+pub(crate) fn vehicle(text: &str) -> Result<EnvelopeSource, UserError> {
+    text.parse::<EnvelopeSource>().map_err(|error| {
+        let message = format!("`{text}` is no vehicle: {error}");
+        UserError::new(
+            "usage",
+            message,
+            "Write its length and width, such as 2x1.2",
+        )
+    })
 }
 
 fn rgba(text: Option<&str>, default: Rgba) -> Result<Rgba, UserError> {

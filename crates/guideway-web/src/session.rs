@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 use guideway::compose::{
-    MarkedRoute, NoProgress, Picture, VectorFormat, Viewport, suitable_widths,
+    ComposeError, FloorPlan, MarkedRoute, NoProgress, Picture, VectorFormat, Viewport,
+    suitable_widths,
 };
 use guideway::document::{Index, pick_element};
 use guideway::formats::{Progress, ReadOptions, Target, WriteError, read_bytes};
@@ -19,8 +20,9 @@ use serde_json::{Value, json};
 
 use crate::answers;
 use crate::elements;
+use crate::floor_plan;
 use crate::kept_method::KeptMethod;
-use crate::look::{Look, RouteEnds, SceneKey, Shade, usage};
+use crate::look::{Look, RouteEnds, SceneKey, Shade, usage, vehicle};
 
 /// Paths among which the one under the pointer is sought.
 const MAX_CANDIDATES: usize = 100_000;
@@ -32,6 +34,7 @@ pub struct Session {
     index: OnceLock<Arc<Index>>,
     scene: Option<(SceneKey, Arc<Scene>)>,
     method: KeptMethod,
+    floor_plan: Option<FloorPlan>,
     /// The widths that suit the last view.
     widths: Option<SuitedWidths>,
     /// The view and the widths of the last picture, for hit tests.
@@ -81,9 +84,35 @@ impl Session {
             index: OnceLock::new(),
             scene: None,
             method: KeptMethod::default(),
+            floor_plan: None,
             widths: None,
             shown: None,
         })
+    }
+
+    /// Sets the floor plan: the bytes of an image with its `placement`, which is JSON, or those of
+    /// a layout or a drawing with `null` in its place. Error texts call it `name`.
+    ///
+    /// # Errors
+    /// When the bytes cannot be read, or the placement is none.
+    pub fn set_floor_plan(
+        &mut self,
+        name: &str,
+        bytes: Vec<u8>,
+        placement: &str,
+    ) -> Result<(), UserError> {
+        self.floor_plan = Some(floor_plan::read(name, bytes, placement)?);
+        self.widths = None;
+        Ok(())
+    }
+
+    /// Checks that a vehicle, such as `2x1.2`, has swept areas in this layout.
+    ///
+    /// # Errors
+    /// When the text describes no vehicle, or no path has an area.
+    pub fn check_envelope(&self, text: &str) -> Result<(), UserError> {
+        let any = vehicle(text)?.require_any(&self.layout);
+        any.map_err(|reason| ComposeError::NoEnvelope { reason }.into())
     }
 
     /// Extent, counts, levels, vehicle types, columns and formats to save in, as JSON. The length
@@ -154,7 +183,7 @@ impl Session {
         let (_, picture) = self.picture(look)?;
         let (size, header) = (picture.viewport.size, picture.png_header()?);
         let mut bytes = Vec::new();
-        let failed = |problem| guideway::compose::ComposeError::Save(memory_error(problem));
+        let failed = |problem| ComposeError::Save(memory_error(problem));
         write_png_by(&mut bytes, size, &header, failed, |sink| {
             picture.render(&self.method, &NoProgress, sink)
         })?;
@@ -273,7 +302,7 @@ impl Session {
             Some((_, scene)) => scene,
             None => {
                 let layout = Arc::clone(&self.layout);
-                Arc::new(Scene::new(layout, &Look::scene_options(&key))?)
+                Arc::new(Scene::new(layout, &key.scene_options())?)
             }
         };
         self.scene = Some((key, Arc::clone(&scene)));
@@ -287,6 +316,9 @@ impl Session {
             })
         });
         let mut picture = look.picture(scene, route.transpose()?)?;
+        if look.floor_plan {
+            picture.backdrop.floor_plan.clone_from(&self.floor_plan);
+        }
         if look.has_marks() {
             picture.index = Some(Arc::clone(self.shared_index()));
         }

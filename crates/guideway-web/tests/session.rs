@@ -73,6 +73,74 @@ fn picture_is_that_of_the_compositor_also_after_another_view() {
 }
 
 #[test]
+fn floor_plan_and_swept_areas_lie_below_the_paths() {
+    let mut session = site();
+    let mut look = look();
+    let mut bytes_of = |session: &mut Session, more: &[(&str, Value)]| {
+        for (name, value) in more {
+            look[*name] = value.clone();
+        }
+        session.render(&look.to_string()).unwrap().rgba
+    };
+    let plain = bytes_of(&mut session, &[]);
+    assert!(plain == bytes_of(&mut session, &[("floorPlan", json!(true))]));
+    let drawing = br#"<svg xmlns="http://www.w3.org/2000/svg" width="90" height="30">
+        <path d="M0 0 L90 30" stroke="black" fill="none"/></svg>"#;
+    let set = session.set_floor_plan("hall.svg", drawing.to_vec(), "null");
+    set.unwrap();
+    let with_drawing = bytes_of(&mut session, &[]);
+    assert!(plain != with_drawing, "the drawing shows");
+    let image = b"P5 1 1 255\n\x80".to_vec();
+    let placement = r#"{"pxPerM": 0.01, "rotateDeg": 0, "offset": [0, -20]}"#;
+    session
+        .set_floor_plan("hall.pgm", image, placement)
+        .unwrap();
+    let with_image = bytes_of(&mut session, &[]);
+    assert_eq!(with_image[..4], [128, 128, 128, 255], "the corner is gray");
+    assert!(plain == bytes_of(&mut session, &[("floorPlan", json!(false))]));
+    let swept = bytes_of(&mut session, &[("envelope", json!("2x1.2"))]);
+    assert!(plain != swept, "the areas show");
+
+    let before = bytes_of(&mut session, &[("floorPlan", json!(true))]);
+    for (name, bytes, placement) in [
+        ("hall.png", &b"no image"[..], placement),
+        ("hall.svg", b"no layout", "null"),
+        ("hall.pgm", b"P5 1 1 255\n\x80", "{}"),
+    ] {
+        let refused = session.set_floor_plan(name, bytes.to_vec(), placement);
+        let error = refused.unwrap_err();
+        assert!(error.message.contains(name), "{}", error.message);
+    }
+    assert!(before == bytes_of(&mut session, &[]), "the last plan stays");
+}
+
+#[test]
+fn vehicles_without_areas_are_refused() {
+    let session = site();
+    session.check_envelope("2x1.2,0.5").unwrap();
+    for (text, said) in [("2xwide", "2xwide"), ("file", "the file gives none")] {
+        let error = session.check_envelope(text).unwrap_err();
+        assert!(error.message.contains(said), "{}", error.message);
+    }
+}
+
+#[test]
+fn numbers_have_the_colors_of_palette_and_range() {
+    let mut session = site();
+    let mut look = look();
+    look["colorBy"] = json!("maxSpeed");
+    let warm = session.render(&look.to_string()).unwrap();
+    look["palette"] = json!("viridis");
+    let viridis = session.render(&look.to_string()).unwrap();
+    look["range"] = json!([0.0, 5.0]);
+    let narrow = session.render(&look.to_string()).unwrap();
+    assert!(warm.rgba != viridis.rgba && viridis.rgba != narrow.rgba);
+    look["palette"] = json!("rainbow");
+    let error = session.render(&look.to_string()).unwrap_err();
+    assert!(error.message.contains("rainbow"));
+}
+
+#[test]
 fn length_is_left_to_calls_of_its_own() {
     let session = site();
     let info = parsed(&session.info());

@@ -55,6 +55,17 @@ impl Image {
         Self::new(map_colors::image_of(grid), &grid.placement)
     }
 
+    /// The bytes of a PNG file with the pixels of the image.
+    ///
+    /// # Errors
+    /// When the memory does not take them.
+    pub fn png(&self) -> io::Result<Cow<'_, [u8]>> {
+        match &self.png {
+            Some(png) => Ok(Cow::Borrowed(png)),
+            None => Ok(Cow::Owned(encode_png(self.size_px(), self.pixels())?)),
+        }
+    }
+
     /// Width and height in pixels.
     fn size(&self) -> Point<f64> {
         Point::new(self.levels[0].width as f64, self.levels[0].height as f64)
@@ -121,10 +132,7 @@ impl Image {
 
 impl PageImage for Image {
     fn png(&self) -> io::Result<Cow<'_, [u8]>> {
-        match &self.png {
-            Some(png) => Ok(Cow::Borrowed(png)),
-            None => Ok(Cow::Owned(encode_png(self.size_px(), self.pixels())?)),
-        }
+        self.png()
     }
 
     fn size_px(&self) -> [u32; 2] {

@@ -44,6 +44,15 @@ fn contains(parts: &[ConvexPolygon], point: P) -> bool {
 }
 
 #[test]
+fn one_path_with_an_envelope_suffices() {
+    assert_eq!(EnvelopeSource::File.require_any(&Layout::default()), Ok(()));
+    let both = layout(&["none", "[[[[0,0],[4,0],[4,4],[0,4],[0,0]]]]"]);
+    assert_eq!(EnvelopeSource::File.require_any(&both), Ok(()));
+    let alone = EnvelopeSource::File.require_any(&layout(&["none"]));
+    assert_eq!(alone, Err(NoEnvelope::Unreadable));
+}
+
+#[test]
 fn keeps_convex_areas_whole_and_cuts_holes_and_notches() {
     let square = "[[[0,0],[4,0],[4,4],[0,4],[0,0]]]";
     assert_eq!(parts(&format!("[{square}]")).unwrap().len(), 1);

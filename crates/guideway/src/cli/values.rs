@@ -53,11 +53,8 @@ pub(crate) fn background(text: &str) -> Result<Rgba, String> {
 
 /// The name of a palette.
 pub(crate) fn palette() -> impl TypedValueParser<Value = Palette> {
-    PossibleValuesParser::new(Palette::ALL.map(Palette::name)).try_map(|name| {
-        let mut all = Palette::ALL.into_iter();
-        all.find(|palette| palette.name() == name)
-            .ok_or("the list of palettes has this name")
-    })
+    PossibleValuesParser::new(Palette::ALL.map(Palette::name))
+        .try_map(|name| Palette::named(&name).ok_or("the list of palettes has this name"))
 }
 
 /// A range of numbers such as `0..2`.

@@ -1,5 +1,10 @@
 //! Tests of `share`, and of pages that `render` writes.
 
+use std::io::Read;
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use flate2::read::GzDecoder;
 use serde_json::Value;
 
 use crate::support::{command, names_in, site, stderr, stdout};
@@ -45,6 +50,65 @@ fn page_opens_as_its_options_say() {
 }
 
 #[test]
+fn page_holds_floor_plan_vehicle_and_palette() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = site();
+    let site = site.to_str().unwrap();
+    let run = |args: &[&str]| {
+        let output = command()
+            .args(args)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+    };
+    run(&["convert", site, "plan.dxf"]);
+    run(&["render", site, "-o", "plan.png", "--size", "30x20"]);
+    let image = std::fs::read(folder.path().join("plan.png")).unwrap();
+    let pgm = [b"P5 2 1 255\n".as_slice(), &[0, 254]].concat();
+    std::fs::write(folder.path().join("map.pgm"), pgm).unwrap();
+    let map = "image: map.pgm\nresolution: 0.5\norigin: [1.0, 2.0, 0.0]\nnegate: 0\n\
+               occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    std::fs::write(folder.path().join("map.yaml"), map).unwrap();
+    let placement = |px_per_m: f64, rotate_deg: f64, offset: [f64; 2]| {
+        let placement =
+            serde_json::json!({ "pxPerM": px_per_m, "rotateDeg": rotate_deg, "offset": offset });
+        Some(placement)
+    };
+    let options = ["--color-by", "maxSpeed", "--palette", "gray"];
+    let more = ["--range", "0..2", "--envelope", "2x1"];
+    for (plan, place, start) in [
+        ("plan.dxf@offset=3,2", None, &b"ARROW1"[..]),
+        (
+            "plan.png@px-per-m=4,rotate=20,offset=1,-5",
+            placement(4.0, 20.0, [1.0, -5.0]),
+            &image,
+        ),
+        ("map.yaml", placement(2.0, 0.0, [1.0, 2.0]), b"\x89PNG"),
+    ] {
+        for start_of in [["share", site, "-o"], ["render", site, "-o"]] {
+            let plan_args = ["a.html", "--floor-plan", plan];
+            run(&[&start_of[..], &plan_args, &options, &more].concat());
+            let page = std::fs::read_to_string(folder.path().join("a.html")).unwrap();
+            let shared: Value = serde_json::from_str(content(&page, "shared")).unwrap();
+            assert_eq!(shared["look"]["palette"], "gray");
+            assert_eq!(shared["look"]["range"], serde_json::json!([0.0, 2.0]));
+            assert_eq!(shared["look"]["envelope"], "2x1,1");
+            let name = plan.split('@').next().unwrap();
+            assert_eq!(shared["floorPlan"]["name"], name);
+            let expected = place.clone().unwrap_or(Value::Null);
+            assert_eq!(shared["floorPlan"]["placement"], expected);
+            let packed = content(&page, "floor-plan");
+            let packed = BASE64_STANDARD.decode(packed).unwrap();
+            let mut bytes = Vec::new();
+            let mut unpacked = GzDecoder::new(&packed[..]);
+            unpacked.read_to_end(&mut bytes).unwrap();
+            assert!(bytes.starts_with(start), "{plan}");
+        }
+    }
+}
+
+#[test]
 fn bad_pages_are_refused_and_leave_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let site = site();
@@ -64,8 +128,20 @@ fn bad_pages_are_refused_and_leave_no_file() {
             "--method",
         ),
         (
-            &["render", site, "-o", "a.html", "--envelope", "2x1"],
-            "--envelope",
+            &["render", site, "-o", "a.html", "--world-file"],
+            "--world-file",
+        ),
+        (
+            &["share", site, "-o", "a.html", "--envelope", "file"],
+            "the file gives none",
+        ),
+        (
+            &["share", site, "-o", "a.html", "--floor-plan", "none.png"],
+            "none.png",
+        ),
+        (
+            &["share", site, "-o", "a.html", "--palette", "gray"],
+            "--color-by",
         ),
         (
             &["render", site, "-o", "a.html", "--min-px", "3"],

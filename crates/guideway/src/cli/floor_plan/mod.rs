@@ -1,7 +1,15 @@
 //! Reads the file of `--floor-plan`: a layout, a drawing, an image or a page of a PDF with its
 //! scale, or a ROS map.
+//!
+//! | module | purpose |
+//! |---|---|
+//! | `packed` | the bytes and the placement of a floor plan, for a page |
+//! | `pdf_page` | draws a page of a PDF by Poppler |
 
+mod packed;
 mod pdf_page;
+
+pub(crate) use packed::{PackedPlan, pack};
 
 use std::path::Path;
 

@@ -4,26 +4,24 @@ use std::path::Path;
 
 use guideway::AUTO;
 use guideway::layout::UserError;
-use guideway::scene::{Rgba, Shading};
+use guideway::scene::{Palette, Rgba, Shading};
 
 use super::args::Args;
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::output::Output;
-use crate::cli::share::{self, SharedLook};
+use crate::cli::share::{self, Content, SharedLook};
 
 impl Args {
     /// Writes the page.
     pub(super) fn write_page(&self, output: &Path, out: &Output) -> Result<Exit, UserError> {
         let options = self.options()?;
-        let layers = [
-            ("--floor-plan", self.view.floor_plan.is_some()),
-            ("--envelope", self.view.envelope.is_some()),
+        let others = [
             ("--world-file", self.world_file),
             ("--to", self.to.is_some()),
             ("--method", self.method() != AUTO),
         ];
         let decorations = self.decorations.absent_in_pages();
-        let absent = layers.into_iter().chain(decorations);
+        let absent = others.into_iter().chain(decorations);
         let mut absent = absent.chain(self.style.absent_in_pages());
         if let Some((option, _)) = absent.find(|(_, is_given)| *is_given) {
             return Err(usage_error(
@@ -41,11 +39,19 @@ impl Args {
             px_per_m: viewport.px_per_m,
             level: options.scene.level,
             color_by: options.scene.color_by.map(|by| by.column),
+            palette: self.style.palette.map(Palette::name),
+            range: self.style.range,
+            envelope: None,
             shade: (options.style.shading != Shading::Color).then_some("density"),
             background: background.map(|color| format!("{:06x}", color.to_u32() >> 8)),
             legend: (self.style.legend || decorations.has_legend).then_some(true),
         };
-        let title = decorations.title.as_deref();
-        share::write(&self.inputs, output, title, &look, out)
+        let content = Content {
+            inputs: &self.inputs,
+            floor_plan: self.floor_plan(),
+            title: decorations.title.as_deref(),
+            envelope: self.view.envelope,
+        };
+        share::write(&content, output, look, out)
     }
 }

@@ -42,7 +42,7 @@ pub(crate) struct StyleArgs {
     pub(crate) color_by: Option<String>,
     /// Colors of the numbers of that column [default: warm]
     #[arg(long, value_name = "NAME", requires = "color_by", value_parser = values::palette())]
-    palette: Option<Palette>,
+    pub(super) palette: Option<Palette>,
     /// Numbers at both ends of the palette, such as 0..2 [default: the least and the largest one]
     #[arg(
         long,
@@ -51,7 +51,7 @@ pub(crate) struct StyleArgs {
         value_parser = values::range,
         allow_hyphen_values = true
     )]
-    range: Option<[f64; 2]>,
+    pub(super) range: Option<[f64; 2]>,
     /// Draw the legend of the colors into the picture
     #[arg(long)]
     pub(crate) legend: bool,
@@ -104,15 +104,13 @@ impl StyleArgs {
     }
 
     /// The options of which a page has none.
-    pub(crate) fn absent_in_pages(&self) -> [(&'static str, bool); 8] {
+    pub(crate) fn absent_in_pages(&self) -> [(&'static str, bool); 6] {
         [
             ("--width", self.width.is_some()),
             ("--min-px", self.min_px.is_some()),
             ("--max-px", self.max_px.is_some()),
             ("--line-rule", self.line_rule == Rule::Thesis),
             ("--path-color", self.path_color.is_some()),
-            ("--palette", self.palette.is_some()),
-            ("--range", self.range.is_some()),
             ("--tone", self.tone.is_some()),
         ]
     }

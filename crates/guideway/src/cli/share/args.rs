@@ -2,16 +2,19 @@
 
 use std::path::PathBuf;
 
+use guideway::envelope::EnvelopeSource;
+use guideway::scene::Palette;
 use guideway::spline::Point;
 
 use super::page::SharedLook;
 use crate::cli::input::{Input, PLACEMENT_HELP};
-use crate::cli::values;
+use crate::cli::{envelope, values};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("Examples:\n  \
     guideway share site.lif.json -o site.html\n  \
-    guideway share site.lif.json -o speed.html --title \"Hall 3\" --color-by maxSpeed\n\n{}",
+    guideway share site.lif.json -o speed.html --title \"Hall 3\" --color-by maxSpeed\n  \
+    guideway share site.lif.json -o hall.html --floor-plan hall.dxf\n\n{}",
     PLACEMENT_HELP))]
 pub(crate) struct Args {
     /// Layout files; the content decides the format
@@ -41,6 +44,26 @@ pub(crate) struct Args {
     /// Color paths by a column: `level`, `direction`, `vehicle_type` or a column of the file
     #[arg(long, value_name = "COLUMN")]
     pub(super) color_by: Option<String>,
+    /// Colors of the numbers of that column [default: warm]
+    #[arg(long, value_name = "NAME", requires = "color_by", value_parser = values::palette())]
+    palette: Option<Palette>,
+    /// Numbers at both ends of the palette, such as 0..2 [default: the least and the largest one]
+    #[arg(
+        long,
+        value_name = "MIN..MAX",
+        requires = "color_by",
+        value_parser = values::range,
+        allow_hyphen_values = true
+    )]
+    range: Option<[f64; 2]>,
+    /// File to show below the paths: a layout, a drawing, a ROS map, a page of a PDF or an image,
+    /// such as `hall.png@px-per-m=20,offset=-3,-2`
+    #[arg(long, value_name = "FILE", value_parser = Input::parser())]
+    pub(super) floor_plan: Option<Input>,
+    /// Show the areas that a vehicle sweeps at first: its length, width and the distance from its
+    /// rear end to its reference point, in meters; `file` uses the envelopes of the file
+    #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source)]
+    pub(super) envelope: Option<EnvelopeSource>,
     /// Light lines on dark paper
     #[arg(long)]
     dark: bool,
@@ -54,6 +77,8 @@ impl Args {
             px_per_m: self.scale,
             level: self.level.clone(),
             color_by: self.color_by.clone(),
+            palette: self.palette.map(Palette::name),
+            range: self.range,
             legend: self.color_by.is_some().then_some(true),
             background: self.dark.then(|| "16181d".to_owned()),
             ..SharedLook::default()

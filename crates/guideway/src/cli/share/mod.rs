@@ -2,7 +2,7 @@
 //!
 //! | module | purpose |
 //! |---|---|
-//! | `args` | files, output, title, view and colors |
+//! | `args` | files, output, title, view, colors, floor plan, vehicle |
 //! | `page` | the page of this build, with a layout put into it |
 //! | `run` | reads the files, writes the page, prints the report |
 
@@ -12,4 +12,4 @@ mod run;
 
 pub(crate) use args::Args;
 pub(crate) use page::SharedLook;
-pub(crate) use run::{is_page, run, write};
+pub(crate) use run::{Content, is_page, run, write};

@@ -9,7 +9,9 @@ use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use guideway::layout::UserError;
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
+
+use crate::cli::floor_plan::PackedPlan;
 
 /// The page without engine and layout, as gzip: `cargo xtask web` makes it.
 const PAGE: &[u8] = include_bytes!("../../../page/page.html.gz");
@@ -18,7 +20,7 @@ const ENGINE: &[u8] = include_bytes!("../../../page/engine.wasm.gz");
 /// The places of the page that engine and layout replace.
 const ENGINE_PLACE: &str = "<!--ENGINE-->";
 const SHARED_PLACE: &str = "<!--SHARED-->";
-/// Largest layout, packed and as text: browsers hold no longer texts.
+/// Largest file in a page, packed and as text: browsers hold no longer texts.
 const MAX_PACKED_BYTES: usize = 400_000_000;
 
 /// View, colors and decorations in which a page opens: the look of `guideway-web`.
@@ -38,6 +40,13 @@ pub(crate) struct SharedLook {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) color_by: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) palette: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) range: Option<[f64; 2]>,
+    /// As in `--envelope`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) envelope: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) shade: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) background: Option<String>,
@@ -45,43 +54,68 @@ pub(crate) struct SharedLook {
     pub(crate) legend: Option<bool>,
 }
 
-/// Puts a layout into the page. `name` is the name of its file, by which errors and saved files
-/// are named.
+/// Puts a layout and its floor plan into the page. `name` is the name of the layout's file, by
+/// which errors and saved files are named.
 ///
 /// # Errors
-/// When the layout is larger than a browser can hold.
+/// When layout or plan are larger than a browser can hold.
 pub(super) fn page(
     name: &str,
     title: &str,
     look: &SharedLook,
     layout: &[u8],
+    plan: Option<&PackedPlan>,
 ) -> Result<Vec<u8>, UserError> {
-    let packed = BASE64_STANDARD.encode(pack(layout));
-    if packed.len() > MAX_PACKED_BYTES {
-        return Err(UserError::new(
-            "limit",
-            format!(
-                "{name}: the layout takes {} bytes in a page, limit {MAX_PACKED_BYTES}",
-                packed.len()
-            ),
-            "Share a part of it, or a picture: `guideway render`",
-        ));
+    let mut shared = json!({ "name": name, "title": title, "look": look });
+    let mut files = packed("layout", name, layout)?;
+    if let Some(plan) = plan {
+        shared["floorPlan"] = described(plan);
+        files += &packed("floor-plan", &plan.name, &plan.bytes)?;
     }
-    let shared = json!({ "name": name, "title": title, "look": look }).to_string();
     // A script must not contain the end of its own element.
-    let shared = shared.replace('<', "\\u003c");
+    let shared = shared.to_string().replace('<', "\\u003c");
     let engine = script("text/plain", "engine", &BASE64_STANDARD.encode(ENGINE));
-    let layout = script("text/plain", "layout", &packed);
     let shared = script("application/json", "shared", &shared);
     let mut page = String::new();
     let unpacked = GzDecoder::new(PAGE).read_to_string(&mut page);
     unpacked.map_err(|problem| broken(&problem.to_string()))?;
     let parts = page.split_once(ENGINE_PLACE).and_then(|(head, rest)| {
         let (middle, tail) = rest.split_once(SHARED_PLACE)?;
-        Some([head, &engine, middle, &shared, &layout, tail].concat())
+        Some([head, &engine, middle, &shared, &files, tail].concat())
     });
     let parts = parts.ok_or_else(|| broken("it has no place for a layout"))?;
     Ok(parts.into_bytes())
+}
+
+/// Name and placement of a floor plan; the placement of a layout is `null`.
+fn described(plan: &PackedPlan) -> Value {
+    let placement = plan.placement.map(|placement| {
+        json!({
+            "pxPerM": placement.px_per_m,
+            "rotateDeg": placement.rotate_deg,
+            "offset": [placement.offset_m.x, placement.offset_m.y],
+        })
+    });
+    json!({ "name": plan.name, "placement": placement })
+}
+
+/// A file as an element of the page.
+///
+/// # Errors
+/// When it is larger than a browser can hold.
+fn packed(id: &str, name: &str, bytes: &[u8]) -> Result<String, UserError> {
+    let packed = BASE64_STANDARD.encode(pack(bytes));
+    if packed.len() > MAX_PACKED_BYTES {
+        return Err(UserError::new(
+            "limit",
+            format!(
+                "{name}: the file takes {} bytes in a page, limit {MAX_PACKED_BYTES}",
+                packed.len()
+            ),
+            "Share a part of it, or a picture: `guideway render`",
+        ));
+    }
+    Ok(script("text/plain", id, &packed))
 }
 
 fn script(kind: &str, id: &str, content: &str) -> String {
@@ -110,7 +144,7 @@ mod tests {
     #[test]
     fn page_holds_engine_and_layout_and_no_script_of_the_names() {
         let title = "</script><script>alert(1)</script>";
-        let made = page("site.json", title, &SharedLook::default(), b"{}").unwrap();
+        let made = page("site.json", title, &SharedLook::default(), b"{}", None).unwrap();
         let made = String::from_utf8(made).unwrap();
         assert!(!made.contains("alert(1)</script"), "the title is no script");
         assert!(made.contains("connect-src 'none'"));

@@ -3,18 +3,20 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use guideway::compose::ComposeError;
+use guideway::envelope::EnvelopeSource;
 use guideway::formats::Target;
 use guideway::layout::{Layout, UserError, shown_path};
 use guideway::scene::{ColorBy, Scene, SceneOptions};
 use serde_json::json;
 
 use super::args::Args;
-use super::page::{SharedLook, page};
+use super::page::{SharedLook, page as make_page};
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::{self, Input, check_output};
 use crate::cli::output::{Output, is_stdout, print, save};
 use crate::cli::picture_file::stem;
-use crate::cli::{stdout, text};
+use crate::cli::{envelope, floor_plan, stdout, text};
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let output = match &args.output {
@@ -27,8 +29,14 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             format!("Name it {}", shown_path(&output.with_extension("html"))),
         ));
     }
-    let title = args.title.as_deref();
-    write(&args.inputs, &output, title, &args.look(), out)
+    let plan = args.floor_plan.as_ref();
+    let content = Content {
+        inputs: &args.inputs,
+        floor_plan: plan,
+        title: args.title.as_deref(),
+        envelope: args.envelope,
+    };
+    write(&content, &output, args.look(), out)
 }
 
 /// Returns `true` if the extension of a file says that it is a page.
@@ -37,27 +45,41 @@ pub(crate) fn is_page(path: &Path) -> bool {
     extension.eq_ignore_ascii_case("html") || extension.eq_ignore_ascii_case("htm")
 }
 
+/// The content of a page.
+pub(crate) struct Content<'a> {
+    /// The files of the layout.
+    pub(crate) inputs: &'a [Input],
+    pub(crate) floor_plan: Option<&'a Input>,
+    /// `None` for the name of the first file.
+    pub(crate) title: Option<&'a str>,
+    /// The vehicle whose swept areas are shown.
+    pub(crate) envelope: Option<EnvelopeSource>,
+}
+
 /// Writes layout files into a page.
 ///
 /// # Errors
 /// When a file cannot be read, the page cannot show what is asked for, or the output fails.
 pub(crate) fn write(
-    inputs: &[Input],
+    page: &Content<'_>,
     output: &Path,
-    title: Option<&str>,
-    look: &SharedLook,
+    mut look: SharedLook,
     out: &Output,
 ) -> Result<Exit, UserError> {
+    let inputs = page.inputs;
     if look.center.is_some() != look.px_per_m.is_some() {
         return Err(usage_error(
             "--center and --scale make a view of a page together",
             "Give both, such as `--center 12.5,-3 --scale 40`, or neither",
         ));
     }
+    let files = inputs.iter().chain(page.floor_plan);
     match is_stdout(output) {
         true => stdout::check(out, None)?,
-        false => check_output(inputs.iter().map(|input| input.path.as_path()), output)?,
+        false => check_output(files.map(|input| input.path.as_path()), output)?,
     }
+    let plan = page.floor_plan.map(|plan| floor_plan::pack(plan, out));
+    let plan = plan.transpose()?;
     let (layout, read_ms) = input::read_all(inputs, out)?;
     let layout = Arc::new(layout);
     // Names of levels and columns are checked here, and not by the one who opens the page.
@@ -67,10 +89,16 @@ pub(crate) fn write(
         ..SceneOptions::default()
     };
     Scene::new(Arc::clone(&layout), &options)?;
+    if let Some(vehicle) = page.envelope {
+        let any = vehicle.require_any(&layout);
+        any.map_err(|reason| ComposeError::NoEnvelope { reason })?;
+        look.envelope = Some(envelope::name(vehicle));
+    }
     let progress = out.progress("packing");
     let (name, bytes) = content(inputs, &layout)?;
+    let title = page.title;
     let title = title.unwrap_or_else(|| name.split('.').next().unwrap_or_default());
-    let page = page(&name, title, look, &bytes)?;
+    let page = make_page(&name, title, &look, &bytes, plan.as_ref())?;
     let pack_ms = progress.finish();
     match is_stdout(output) {
         true => print(&page)?,
