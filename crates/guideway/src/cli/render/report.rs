@@ -18,6 +18,7 @@ use crate::cli::{envelope, input, text};
 pub(super) struct Times {
     pub(super) read: f64,
     pub(super) scene: f64,
+    /// Widths and shading that suit the picture, and what the method prepares.
     pub(super) prepare: f64,
     pub(super) render: f64,
     pub(super) write: f64,

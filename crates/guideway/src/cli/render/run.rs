@@ -69,6 +69,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let scene_ms = progress.finish();
     let mut picture = args.picture(&options, Arc::clone(&scene), floor_plan);
     picture.levels = levels;
+    let choosing = Instant::now();
     args.suit_widths(&mut picture)?;
     let route = args.decorations.route.as_ref();
     let route = route.map(|ends| ends.find(scene.layout())).transpose()?;
@@ -87,6 +88,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
                 .to_owned(),
         );
     }
+    let choice_ms = elapsed_ms(choosing);
     let started = Instant::now();
     let mut rendered = match &renderer {
         Renderer::Curves(format) => target.write_vector(&picture, *format)?,
@@ -105,7 +107,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let times = Times {
         read: read_ms,
         scene: scene_ms,
-        prepare: rendered.prepare_ms,
+        prepare: choice_ms + rendered.prepare_ms,
         render: rendered.render_ms,
         write: rendered.write_ms,
     };
