@@ -7,7 +7,7 @@ use crate::device::Source;
 use crate::testing::reflection::{assert_bindings, assert_layout, members};
 
 /// Every variant of every entry point.
-fn sources() -> Vec<Source> {
+pub(super) fn sources() -> Vec<Source> {
     let mut sources = vec![
         shaders::CULL.source(),
         shaders::flatten(PointFormat::Rounded),

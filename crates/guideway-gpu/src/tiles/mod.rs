@@ -66,4 +66,6 @@ pub use options::TilesOptions;
 #[cfg(test)]
 mod layout_tests;
 #[cfg(test)]
+mod rounding_tests;
+#[cfg(test)]
 mod tests;

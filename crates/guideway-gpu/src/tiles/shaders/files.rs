@@ -59,6 +59,7 @@ pub(crate) const FILES: &[(&str, &str)] = files![
     "shared/line.wgsl",
     "shared/line_pass.wgsl",
     "shared/open_pixels.wgsl",
+    "shared/rounding.wgsl",
     "shared/split_lists.wgsl",
     "shared/style.wgsl",
     "shared/subgroup_capsule.wgsl",

@@ -85,7 +85,7 @@ fn resolve_rows(tile: Tile, thread: u32) {
     }
     workgroupBarrier();
     let sum = vec2u(atomicLoad(&scratch[thread]), atomicLoad(&scratch[THREADS + thread]));
-    let shown = vec4f(vec4u(sum.x & 0xffffu, sum.y & 0xffffu, sum.x >> 16u, sum.y >> 16u));
-    let shares = shown / f32(SAMPLE_ROWS * SAMPLES_PER_ROW);
-    write_pixel(tile, thread, over_background(shares.rgb, shares.a));
+    let shown = vec4u(sum.x & 0xffffu, sum.y & 0xffffu, sum.x >> 16u, (sum.y >> 16u) * 255u);
+    let steps = PIXEL_STEPS / (SAMPLE_ROWS * SAMPLES_PER_ROW);
+    write_pixel(tile, thread, over_background(shown * steps));
 }

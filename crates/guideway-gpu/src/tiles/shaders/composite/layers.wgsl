@@ -23,10 +23,13 @@ var<workgroup> colors: array<u32, BATCH_LINES>;
 var<private> transmittance: array<f32, ROW_WORDS * 32>;
 
 // Fixed-point steps of one sample in a sum.
-const SUM_STEPS: f32 = 256.0;
+const SUM_STEPS: u32 = 256u;
 
+// Adds a color, weighted by a sum of up to 16 transmittances.
 fn add_color(pixel: u32, color: u32, samples: f32) {
-    let parts = vec4u(vec4f(channels(color).rgb, 255.0) * samples * SUM_STEPS + 0.5);
+    let weight = u32(exact(samples * 65536.0) + 0.5);
+    let rounding = 32768u / SUM_STEPS;
+    let parts = (opaque_channels(color) * weight + rounding) / (65536u / SUM_STEPS);
     for (var channel = 0u; channel < 4u; channel++) {
         atomicAdd(&sums[pixel * 4u + channel], parts[channel]);
     }
@@ -38,7 +41,7 @@ fn take_transmittance(first_sample: u32, bits: u32, opacity: f32) -> f32 {
     var taken = 0.0;
     for (var left = bits; left != 0u; left &= left - 1u) {
         let sample = first_sample + firstTrailingBit(left);
-        let part = transmittance[sample] * opacity;
+        let part = clamp(transmittance[sample] * opacity, 0.0, 1.0);
         taken += part;
         transmittance[sample] -= part;
     }
@@ -51,7 +54,7 @@ fn composite_path(row: u32, color: u32, gathered: ptr<function, SampleRow>) {
         count_samples(row, OF_STROKES, gathered);
         return;
     }
-    let opacity = f32(color >> 24u) / 255.0;
+    let opacity = f32(color >> 24u) * (1.0 / 255.0);
     let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
     for (var word = 0u; word < ROW_WORDS; word++) {
         loops++;
@@ -83,7 +86,7 @@ fn load_batch(tile: Tile, thread: u32, first: u32, end: u32) {
         count_reads(2u);
         capsules[thread] = capsule;
         if IS_DENSITY {
-            path_ends[thread] = path_ends_of_capsule(line, capsule);
+            path_ends[thread] = path_ends_of_capsule(tile, line);
         }
         ranks[thread] = rank;
         colors[thread] = style_of(rank).color;
@@ -158,16 +161,15 @@ fn main(
     fold_loop_count();
     workgroupBarrier();
     report_loop_count(thread);
-    let samples = f32(SAMPLE_ROWS * SAMPLES_PER_ROW);
     var sum: vec4u;
     for (var channel = 0u; channel < 4u; channel++) {
         sum[channel] = atomicLoad(&sums[thread * 4u + channel]);
     }
     if IS_DENSITY {
-        write_pixel(tile, thread, bitcast<u32>(paths_of(sum) / samples));
+        write_pixel(tile, thread, bitcast<u32>(mean_paths(sum)));
     } else {
-        let shares = vec4f(sum) / (samples * SUM_STEPS);
-        write_pixel(tile, thread, over_background(shares.rgb, shares.a / 255.0));
+        let per_step = SUM_STEPS * SAMPLE_ROWS * SAMPLES_PER_ROW / PIXEL_STEPS;
+        write_pixel(tile, thread, over_background((sum + per_step / 2u) / per_step));
     }
     report_work();
 }

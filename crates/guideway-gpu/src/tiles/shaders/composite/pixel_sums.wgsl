@@ -34,14 +34,7 @@ fn count_samples(row: u32, sum: u32, samples: ptr<function, SampleRow>) {
 // Counts the samples of a row around an end of a path.
 fn count_end(row: u32, center: vec2f, radius: f32) {
     // A capsule without length.
-    let disc = Capsule(
-        center,
-        vec2f(0.0),
-        center.y + BORDER_SLACK,
-        center.y - BORDER_SLACK,
-        1e20,
-        radius,
-    );
+    let disc = Capsule(center, MIN_HEIGHT, 0.0, BORDER_SLACK, radius);
     var samples: SampleRow;
     cover(&samples, disc, row);
     count_samples(row, OF_ENDS, &samples);
@@ -53,21 +46,22 @@ fn count_ends(row: u32, capsule: Capsule, ends: u32) {
         count_end(row, capsule.upper, capsule.radius);
     }
     if (ends & 2u) != 0u {
-        count_end(row, capsule.upper + capsule.along, capsule.radius);
+        count_end(row, lower_end(capsule), capsule.radius);
     }
 }
 
 // Returns the word of `path_ends` for the capsule of a line.
-fn path_ends_of_capsule(index: u32, capsule: Capsule) -> u32 {
+fn path_ends_of_capsule(tile: Tile, index: u32) -> u32 {
     let words = words_of_line(index);
-    let line = line_of(words);
     let ends = path_ends_of(words);
-    let points_down = dot(line.zw - line.xy, capsule.along) >= 0.0;
-    return select((ends >> 1u) | ((ends & 1u) << 1u), ends, points_down);
+    let is_down = points_down(ends_from(line_of(words), corner_of(tile)));
+    return select((ends >> 1u) | ((ends & 1u) << 1u), ends, is_down);
 }
 
-// Returns the number of paths times that of samples. An end may hold a sample more than its stroke,
-// by rounding.
-fn paths_of(sum: vec4u) -> f32 {
-    return f32(max(2u * sum[OF_STROKES], sum[OF_ENDS]) - sum[OF_ENDS]) / 2.0;
+// Returns the mean number of paths per sample. An end may hold a sample more than its stroke, by
+// rounding.
+fn mean_paths(sum: vec4u) -> f32 {
+    let halves = max(2u * sum[OF_STROKES], sum[OF_ENDS]) - sum[OF_ENDS];
+    // A power of two.
+    return f32(halves) / f32(2u * SAMPLE_ROWS * SAMPLES_PER_ROW);
 }

@@ -34,13 +34,7 @@ fn columns_open(own: Thread) -> u32 {
 
 // Pixel columns that a capsule may reach in sample rows [first, end), one bit each.
 fn columns_reached(capsule: Capsule, first: u32, end: u32) -> u32 {
-    let reach = capsule.radius + BORDER_SLACK;
-    let near = vec2f(f32(first) - reach, f32(end) + reach) - capsule.upper.y;
-    let t = clamp(near * capsule.inverse_dy, vec2f(0.0), vec2f(1.0));
-    let x = capsule.upper.x + capsule.along.x * t;
-    let low = clamp((min(x.x, x.y) - reach) / f32(SAMPLE_ROWS), 0.0, f32(TILE_PX));
-    let high = clamp((max(x.x, x.y) + reach) / f32(SAMPLE_ROWS) + 1.0, 0.0, f32(TILE_PX));
-    return low_bits(u32(high)) & ~low_bits(u32(low));
+    return columns_between(capsule, f32(first) * STEP, f32(end) * STEP);
 }
 
 // Rows of the subgroup in which a capsule may reach an open column; empty if x >= y.

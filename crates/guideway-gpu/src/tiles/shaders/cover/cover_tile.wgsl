@@ -14,8 +14,8 @@ var<workgroup> tile_header: vec3u;
 fn resolve_tile(tile: Tile, thread: u32) {
     close_full_pixels(thread, THREADS);
     for (var pixel = thread; pixel < TILE_PX * TILE_PX; pixel += THREADS) {
-        let share = f32(covered_samples(pixel)) / f32(SAMPLE_ROWS * SAMPLES_PER_ROW);
-        write_pixel(tile, pixel, over_background(channels(frame.color).rgb * share, share));
+        let steps = covered_samples(pixel) * (PIXEL_STEPS / (SAMPLE_ROWS * SAMPLES_PER_ROW));
+        write_pixel(tile, pixel, over_background(opaque_channels(frame.color) * steps));
     }
     workgroupBarrier();
     if thread == 0u && atomicLoad(&open_pixel_count) == 0u {

@@ -30,10 +30,15 @@ const CLUSTER_WORDS: u32 = 16u;
 // Frames without such a map compile it away.
 override MAPS: bool = false;
 
+// Returns whether the map of a gesture turns the points of a cluster.
+fn is_turned(is_mapped: u32) -> bool {
+    return MAPS && is_mapped != 0u;
+}
+
 // Maps a vector from the origin of a cluster to where a gesture shows it.
 fn shown_vector(is_mapped: u32, v: vec2f) -> vec2f {
-    if MAPS && is_mapped != 0u {
-        return frame.map_x * v.x + frame.map_y * v.y;
+    if is_turned(is_mapped) {
+        return rounded2(frame.map_x * v.x) + rounded2(frame.map_y * v.y);
     }
     return v;
 }

@@ -8,7 +8,11 @@ fn knot_px(curve: Curve, segment: u32) -> vec2f {
     let a = control_px(curve, segment);
     let b = control_px(curve, segment + 1u);
     let c = control_px(curve, segment + 2u);
-    return (a + 4.0 * b + c) / 6.0;
+    return knot_between(a, b, c);
+}
+
+fn knot_between(a: vec2f, b: vec2f, c: vec2f) -> vec2f {
+    return (a + exact2(4.0 * b) + c) * (1.0 / 6.0);
 }
 
 // A point of a segment: equation 3.2.
@@ -20,12 +24,12 @@ fn curve_px(curve: Curve, segment: u32, t: f32) -> vec2f {
     return blend_control_px(a, b, c, d, t);
 }
 
+// Equation 3.2 by powers of t, in the scheme of Horner.
 fn blend_control_px(a: vec2f, b: vec2f, c: vec2f, d: vec2f, t: f32) -> vec2f {
-    let s = 1.0 - t;
-    let t2 = t * t;
-    let t3 = t2 * t;
-    return (s * s * s * a + (3.0 * t3 - 6.0 * t2 + 4.0) * b
-        + (3.0 * (t + t2 - t3) + 1.0) * c + t3 * d) / 6.0;
+    let third = rounded2((d - a) * (1.0 / 6.0)) + exact2(0.5 * (b - c));
+    let second = exact2(0.5 * (a - exact2(2.0 * b) + c)) + rounded2(t * third);
+    let first = exact2(0.5 * (c - a)) + rounded2(t * second);
+    return rounded2(knot_between(a, b, c)) + rounded2(t * first);
 }
 
 // Squared second derivative of the curve at the knot before a segment (t runs over 1 per segment):
@@ -38,8 +42,9 @@ fn squared_bend(curve: Curve, knot: u32) -> f32 {
 }
 
 fn squared_bend_of(a: vec2f, b: vec2f, c: vec2f) -> f32 {
-    let bend = a - 2.0 * b + c;
-    return dot(bend, bend);
+    let bend = a - exact2(2.0 * b) + c;
+    let squares = rounded2(bend * bend);
+    return squares.x + squares.y;
 }
 
 // Returns whether one line may replace some segments. The curve has a continuous first derivative,
@@ -53,10 +58,14 @@ fn is_flat(segments: u32, squared_bend: f32) -> bool {
 // Most lines per segment.
 const MAX_STEPS: f32 = 4096.0;
 
-// Number of lines, equally spaced in t, that one segment needs by the same bound.
+// Number of lines, equally spaced in t, that one segment needs by the same bound. The roots of
+// devices differ: they only lead to the number or the one before.
 fn segment_lines(squared_bend: f32) -> u32 {
-    let steps = sqrt(sqrt(squared_bend) / (8.0 * frame.tolerance_px));
-    return u32(clamp(ceil(steps), 1.0, MAX_STEPS));
+    let most = 8.0 * frame.tolerance_px;
+    let near = clamp(floor(sqrt(sqrt(squared_bend) / most) + 0.5), 1.0, MAX_STEPS);
+    let square = near * near;
+    let is_enough = square * square * (most * most) >= squared_bend || near == MAX_STEPS;
+    return u32(near) + select(1u, 0u, is_enough);
 }
 
 // Bounding box of all control points of a stroke: minimum and maximum corner.

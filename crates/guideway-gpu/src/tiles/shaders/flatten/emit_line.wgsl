@@ -27,14 +27,23 @@ fn write_culled_line(slot: u32) {
     count_writes(1u);
 }
 
-// `path_ends`: whether a path starts at a, and whether it ends at b.
-fn emit_line(slot: u32, rank: u32, a: vec2f, b: vec2f, path_ends: vec2<bool>, radius: f32) {
+// `path_ends`: whether a path starts at the start, and whether it ends at the end.
+fn emit_line(
+    slot: u32,
+    rank: u32,
+    start: vec2f,
+    end: vec2f,
+    path_ends: vec2<bool>,
+    radius: f32,
+) {
     if slot >= frame.line_capacity {
         return;
     }
-    var line = vec4f(a, b);
+    var line = vec4f(start, end);
     var ends = path_ends;
     if !is_inside {
+        let a = rounded2(start);
+        let b = rounded2(end);
         let part = clip_to_lod(a, b);
         if part.x > part.y {
             write_culled_line(slot);
@@ -42,8 +51,8 @@ fn emit_line(slot: u32, rank: u32, a: vec2f, b: vec2f, path_ends: vec2<bool>, ra
         }
         // Ends inside keep their bits.
         line = vec4f(
-            select(a, a + (b - a) * part.x, part.x > 0.0),
-            select(b, a + (b - a) * part.y, part.y < 1.0),
+            select(a, a + rounded2((b - a) * part.x), part.x > 0.0),
+            select(b, a + rounded2((b - a) * part.y), part.y < 1.0),
         );
         ends &= vec2<bool>(part.x <= 0.0, part.y >= 1.0);
     }

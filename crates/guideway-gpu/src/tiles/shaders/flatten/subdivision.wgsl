@@ -107,5 +107,5 @@ fn line_end_px(curve: Curve, piece: CurvePiece, step: u32) -> vec2f {
     if step == piece.steps {
         return knot_px(curve, piece.first + piece.segments);
     }
-    return curve_px(curve, piece.first, f32(step) / f32(piece.steps));
+    return curve_px(curve, piece.first, f32(step) * reciprocal(f32(piece.steps)));
 }

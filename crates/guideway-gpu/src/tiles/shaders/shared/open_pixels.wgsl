@@ -20,17 +20,12 @@ fn init_open_pixels(tile: Tile, thread: u32) -> vec2u {
 // Pixel rows in which a capsule may reach an open pixel, one bit each.
 fn open_pixel_rows(capsule: Capsule) -> u32 {
     let rows = capsule_rows(capsule);
-    let height = f32(SAMPLE_ROWS);
-    let reach = capsule.radius + BORDER_SLACK;
     var shown = 0u;
     for (var row = rows.x / SAMPLE_ROWS; row * SAMPLE_ROWS < rows.y; row++) {
-        let top = f32(row) * height;
-        let near = vec2f(top - reach, top + height + reach) - capsule.upper.y;
-        let t = clamp(near * capsule.inverse_dy, vec2f(0.0), vec2f(1.0));
-        let x = capsule.upper.x + capsule.along.x * t;
-        let low = clamp((min(x.x, x.y) - reach) / height, 0.0, f32(TILE_PX));
-        let high = clamp((max(x.x, x.y) + reach) / height + 1.0, 0.0, f32(TILE_PX));
-        if (atomicLoad(&open_pixels[row]) & low_bits(u32(high)) & ~low_bits(u32(low))) != 0u {
+        let top = f32(row * SAMPLE_ROWS) * STEP;
+        let bottom = f32((row + 1u) * SAMPLE_ROWS) * STEP;
+        let columns = columns_between(capsule, top, bottom);
+        if (atomicLoad(&open_pixels[row]) & columns) != 0u {
             shown |= 1u << row;
         }
     }

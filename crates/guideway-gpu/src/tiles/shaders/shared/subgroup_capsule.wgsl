@@ -6,10 +6,9 @@
 fn capsule_of_lane(line: Capsule, lane: u32) -> Capsule {
     return Capsule(
         vec2f(subgroupShuffle(line.upper.x, lane), subgroupShuffle(line.upper.y, lane)),
-        vec2f(subgroupShuffle(line.along.x, lane), subgroupShuffle(line.along.y, lane)),
-        subgroupShuffle(line.left_y, lane),
-        subgroupShuffle(line.right_y, lane),
-        subgroupShuffle(line.inverse_dy, lane),
+        subgroupShuffle(line.height, lane),
+        subgroupShuffle(line.slope, lane),
+        subgroupShuffle(line.border_y, lane),
         subgroupShuffle(line.radius, lane),
     );
 }

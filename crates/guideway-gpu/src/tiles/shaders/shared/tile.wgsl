@@ -78,8 +78,12 @@ fn capsule_of_line(tile: Tile, line: u32) -> Capsule {
 
 // Capsule of a line with the given radius.
 fn capsule_with_radius(tile: Tile, line: u32, radius_px: f32) -> Capsule {
-    let corner = vec2f(f32(tile.left), f32(tile.top));
-    return capsule_of(line_of(words_of_line(line)), corner, radius_px);
+    return capsule_of(line_of(words_of_line(line)), corner_of(tile), radius_px);
+}
+
+// The upper left corner in pixels.
+fn corner_of(tile: Tile) -> vec2f {
+    return vec2f(f32(tile.left), f32(tile.top));
 }
 
 // Samples of one pixel in a word of a row.

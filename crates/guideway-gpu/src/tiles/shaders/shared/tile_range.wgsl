@@ -1,6 +1,7 @@
 // Finds the tiles that a line with round caps may touch. Ranges exclude their end.
 
 // import: shared/frame.wgsl
+// import: shared/rounding.wgsl
 
 // Bound of the rounding error of a position in the picture.
 const ROUNDING_MARGIN_PX: f32 = 1.0 / 64.0;
@@ -33,7 +34,7 @@ fn tile_columns(line: vec4f, reach_px: f32, row: u32) -> vec2u {
         let top = f32(row * TILE_PX) - reach_px;
         let bottom = f32((row + 1u) * TILE_PX) + reach_px;
         let t = clamp((vec2f(top, bottom) - line.y) / height, vec2f(0.0), vec2f(1.0));
-        ends = fma(vec2f(line.z - line.x), t, vec2f(line.x));
+        ends = rounded2((line.z - line.x) * t) + line.x;
     }
     let low = min(ends.x, ends.y) - reach_px;
     let high = max(ends.x, ends.y) + reach_px;
