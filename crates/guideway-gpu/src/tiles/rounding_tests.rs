@@ -3,8 +3,8 @@
 
 use naga::valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator};
 use naga::{
-    BinaryOperator, Block, Expression, Function, Handle, MathFunction, Module, ScalarKind,
-    Statement,
+    AddressSpace, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle,
+    LocalVariable, MathFunction, Module, ScalarKind, Statement,
 };
 
 use super::layout_tests::sources;
@@ -86,221 +86,225 @@ fn every_kind_of_breach_is_found() {
     }
 }
 
-/// A sentence for each function that breaks the rule.
+/// A sentence for each breach of the rule.
 fn breaches(name: &str, text: &str) -> Vec<String> {
     let module = naga::front::wgsl::parse_str(text)
         .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module);
     let info = info.unwrap_or_else(|error| panic!("{name}: {error:?}"));
+    let bodies = bodies(&module, &info);
     let mut products = Products::default();
     // Until no further variable, argument or result is found to hold a product.
-    while products.spread(&module, &info) {}
-    let all = functions(&module, &info);
-    let of_each = all.flat_map(|(function, info)| {
-        let title = function.name.clone().unwrap_or_default();
-        let title = if title == "main" {
-            name.to_owned()
-        } else {
-            title
-        };
-        let lines = products.breaches(&module, function, info);
-        let is_estimate = ESTIMATES.contains(&title.as_str());
-        lines
-            .filter(move |_| !is_estimate)
-            .map(move |why| format!("{title}: {why}"))
-    });
-    of_each.collect()
+    while products.spread(&bodies) {}
+    let mut found = Vec::new();
+    for body in &bodies {
+        let title = body.function.name.as_deref().filter(|own| *own != "main");
+        let title = title.unwrap_or(name);
+        if !ESTIMATES.contains(&title) {
+            let own = products.breaches(body).into_iter();
+            found.extend(own.map(|why| format!("{title}: {why}")));
+        }
+    }
+    found
 }
 
-fn functions<'a>(
+/// A function, and its handle if it is no entry point.
+struct Body<'a> {
     module: &'a Module,
-    info: &'a ModuleInfo,
-) -> impl Iterator<Item = (&'a Function, &'a FunctionInfo)> {
-    let functions = module.functions.iter();
-    let functions = functions.map(|(handle, function)| (function, &info[handle]));
-    let entries = module.entry_points.iter().enumerate();
-    functions.chain(entries.map(|(i, entry)| (&entry.function, info.get_entry_point(i))))
+    function: &'a Function,
+    info: &'a FunctionInfo,
+    handle: Option<Handle<Function>>,
 }
 
-/// What may hold a product that was not rounded: where floats flow without an operation.
-#[derive(Default, PartialEq, Clone)]
-struct Products {
-    results: Vec<Handle<Function>>,
-    arguments: Vec<(Option<String>, u32)>,
-    locals: Vec<(Option<String>, Handle<naga::LocalVariable>)>,
-    globals: Vec<Handle<naga::GlobalVariable>>,
+fn bodies<'a>(module: &'a Module, info: &'a ModuleInfo) -> Vec<Body<'a>> {
+    let functions = module.functions.iter().map(|(handle, function)| Body {
+        module,
+        function,
+        info: &info[handle],
+        handle: Some(handle),
+    });
+    let entries = module.entry_points.iter().enumerate();
+    let entries = entries.map(|(number, entry)| Body {
+        module,
+        function: &entry.function,
+        info: info.get_entry_point(number),
+        handle: None,
+    });
+    functions.chain(entries).collect()
 }
+
+impl Body<'_> {
+    fn is_float(&self, at: Handle<Expression>) -> bool {
+        let inner = self.info[at].ty.inner_with(&self.module.types);
+        inner.scalar_kind() == Some(ScalarKind::Float)
+    }
+
+    /// Returns whether the compiler of the pipeline, not the device, computes an expression.
+    fn is_constant(&self, at: Handle<Expression>) -> bool {
+        match self.function.expressions[at] {
+            Expression::Literal(_) | Expression::Constant(_) | Expression::Override(_) => true,
+            Expression::As { expr, .. } => self.is_constant(expr),
+            Expression::Binary { left, right, .. } => {
+                self.is_constant(left) && self.is_constant(right)
+            }
+            _ => false,
+        }
+    }
+
+    /// The variable of a pointer. Memory that threads share holds rounded numbers and has none.
+    fn variable(&self, pointer: Handle<Expression>) -> Option<Holder> {
+        match self.function.expressions[pointer] {
+            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => {
+                self.variable(base)
+            }
+            Expression::LocalVariable(local) => Some(Holder::Local(self.handle, local)),
+            Expression::GlobalVariable(global) => {
+                let space = self.module.global_variables[global].space;
+                (space == AddressSpace::Private).then_some(Holder::Global(global))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A place through which floats flow without an operation. Entry points have no handle.
+#[derive(PartialEq)]
+enum Holder {
+    Result(Handle<Function>),
+    Argument(Option<Handle<Function>>, u32),
+    Local(Option<Handle<Function>>, Handle<LocalVariable>),
+    Global(Handle<GlobalVariable>),
+}
+
+/// The places that may hold a product that was not rounded.
+#[derive(Default)]
+struct Products(Vec<Holder>);
 
 impl Products {
     /// Follows every assignment, call and return once. Returns whether it found more.
-    fn spread(&mut self, module: &Module, info: &ModuleInfo) -> bool {
-        let before = self.clone();
-        for (function, info) in functions(module, info) {
-            self.follow(module, function, info, &function.body);
+    fn spread(&mut self, bodies: &[Body<'_>]) -> bool {
+        let before = self.0.len();
+        for body in bodies {
+            self.follow(body, &body.function.body);
         }
-        before != *self
+        before < self.0.len()
     }
 
-    fn follow(&mut self, module: &Module, function: &Function, info: &FunctionInfo, block: &Block) {
+    fn follow(&mut self, body: &Body<'_>, block: &Block) {
         for statement in block {
             match statement {
-                Statement::Block(inner) => self.follow(module, function, info, inner),
+                Statement::Block(inner) => self.follow(body, inner),
                 Statement::If { accept, reject, .. } => {
-                    self.follow(module, function, info, accept);
-                    self.follow(module, function, info, reject);
+                    self.follow(body, accept);
+                    self.follow(body, reject);
                 }
                 Statement::Loop {
-                    body, continuing, ..
+                    body: first,
+                    continuing,
+                    ..
                 } => {
-                    self.follow(module, function, info, body);
-                    self.follow(module, function, info, continuing);
+                    self.follow(body, first);
+                    self.follow(body, continuing);
                 }
                 Statement::Switch { cases, .. } => {
-                    for case in cases {
-                        self.follow(module, function, info, &case.body);
-                    }
+                    cases.iter().for_each(|case| self.follow(body, &case.body));
                 }
                 Statement::Store { pointer, value } => {
-                    if self.is_product(module, function, info, *value) {
-                        self.mark_variable(module, function, *pointer);
-                    }
+                    self.flow(body, *value, body.variable(*pointer));
                 }
                 Statement::Call {
-                    function: called,
+                    function,
                     arguments,
                     ..
                 } => {
-                    let name = &module.functions[*called].name;
                     for (index, argument) in (0..).zip(arguments) {
-                        if self.is_product(module, function, info, *argument) {
-                            insert(&mut self.arguments, (name.clone(), index));
-                        }
+                        let holder = Holder::Argument(Some(*function), index);
+                        self.flow(body, *argument, Some(holder));
                     }
                 }
                 Statement::Return { value: Some(value) } => {
-                    if self.is_product(module, function, info, *value) {
-                        let own = module
-                            .functions
-                            .iter()
-                            .find(|(_, f)| f.name == function.name);
-                        own.into_iter()
-                            .for_each(|(own, _)| insert(&mut self.results, own));
-                    }
+                    self.flow(body, *value, body.handle.map(Holder::Result));
                 }
                 _ => {}
             }
         }
     }
 
-    fn mark_variable(&mut self, module: &Module, function: &Function, at: Handle<Expression>) {
-        match function.expressions[at] {
-            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => {
-                self.mark_variable(module, function, base);
-            }
-            Expression::LocalVariable(local) => {
-                insert(&mut self.locals, (function.name.clone(), local));
-            }
-            // Memory that threads share holds rounded numbers.
-            Expression::GlobalVariable(global)
-                if module.global_variables[global].space == naga::AddressSpace::Private =>
-            {
-                insert(&mut self.globals, global);
-            }
-            _ => {}
+    /// Notes the flow of a value to a place.
+    fn flow(&mut self, body: &Body<'_>, value: Handle<Expression>, to: Option<Holder>) {
+        if let Some(to) = to
+            && !self.0.contains(&to)
+            && self.has(body, value)
+        {
+            self.0.push(to);
         }
     }
 
-    /// Returns whether a float may be a product that was not rounded yet.
-    fn is_product(
-        &self,
-        module: &Module,
-        function: &Function,
-        info: &FunctionInfo,
-        at: Handle<Expression>,
-    ) -> bool {
-        let of = |at| self.is_product(module, function, info, at);
-        match function.expressions[at] {
-            Expression::Binary { op, .. } if op == BinaryOperator::Multiply => {
-                is_float(module, info, at)
+    /// Returns whether a value may be or hold a product that was not rounded.
+    fn has(&self, body: &Body<'_>, at: Handle<Expression>) -> bool {
+        let holds = |holder: Holder| self.0.contains(&holder);
+        match body.function.expressions[at] {
+            Expression::Binary {
+                op: BinaryOperator::Multiply,
+                ..
+            } => body.is_float(at),
+            Expression::Math {
+                fun: MathFunction::Abs,
+                arg,
+                ..
+            } => self.has(body, arg),
+            Expression::Unary { expr, .. } => self.has(body, expr),
+            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => {
+                self.has(body, base)
             }
-            Expression::Unary { expr, .. } => of(expr),
-            Expression::Math { fun, arg, .. } if fun == MathFunction::Abs => of(arg),
-            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => of(base),
-            Expression::Splat { value, .. } => of(value),
-            Expression::Swizzle { vector, .. } => of(vector),
-            Expression::Compose { ref components, .. } => components.iter().any(|&part| of(part)),
-            Expression::Select { accept, reject, .. } => of(accept) || of(reject),
-            Expression::Load { pointer } => of(pointer),
-            Expression::LocalVariable(local) => {
-                self.locals.contains(&(function.name.clone(), local))
+            Expression::Splat { value, .. } => self.has(body, value),
+            Expression::Swizzle { vector, .. } => self.has(body, vector),
+            Expression::Compose { ref components, .. } => {
+                components.iter().any(|&part| self.has(body, part))
             }
-            Expression::GlobalVariable(global) => self.globals.contains(&global),
-            Expression::FunctionArgument(index) => {
-                self.arguments.contains(&(function.name.clone(), index))
+            Expression::Select { accept, reject, .. } => {
+                self.has(body, accept) || self.has(body, reject)
             }
+            Expression::Load { pointer } => body.variable(pointer).is_some_and(holds),
+            Expression::FunctionArgument(index) => holds(Holder::Argument(body.handle, index)),
             Expression::CallResult(called) => {
-                let name = module.functions[called].name.as_deref();
-                self.results.contains(&called) && !name.is_some_and(|n| BARRIERS.contains(&n))
+                let name = body.module.functions[called].name.as_deref();
+                let is_barrier = name.is_some_and(|name| BARRIERS.contains(&name));
+                !is_barrier && holds(Holder::Result(called))
             }
             _ => false,
         }
     }
 
-    fn breaches(
-        &self,
-        module: &Module,
-        function: &Function,
-        info: &FunctionInfo,
-    ) -> impl Iterator<Item = String> {
-        let all = function.expressions.iter();
-        all.filter_map(move |(at, expression)| match *expression {
-            Expression::Binary { op, left, right } if is_float(module, info, at) => match op {
-                BinaryOperator::Add | BinaryOperator::Subtract => {
-                    let is_product = |side| self.is_product(module, function, info, side);
-                    let is_wrong = is_product(left) || is_product(right);
-                    is_wrong.then(|| "a product enters a sum".to_owned())
-                }
-                BinaryOperator::Divide => {
-                    let is_constant = is_constant(function, left) && is_constant(function, right);
-                    (!is_constant).then(|| "a division".to_owned())
-                }
-                _ => None,
-            },
-            Expression::Math { fun, .. } => {
-                (is_float(module, info, at) && !is_pinned(fun)).then(|| format!("{fun:?}"))
+    fn breaches(&self, body: &Body<'_>) -> Vec<String> {
+        let all = body.function.expressions.iter();
+        let floats = all.filter(|(at, _)| body.is_float(*at));
+        let found = floats.filter_map(|(_, expression)| match *expression {
+            Expression::Binary {
+                op: BinaryOperator::Add | BinaryOperator::Subtract,
+                left,
+                right,
+            } => {
+                let is_wrong = self.has(body, left) || self.has(body, right);
+                is_wrong.then(|| "a product enters a sum".to_owned())
             }
+            Expression::Binary {
+                op: BinaryOperator::Divide,
+                left,
+                right,
+            } => {
+                let is_constant = body.is_constant(left) && body.is_constant(right);
+                (!is_constant).then(|| "a division".to_owned())
+            }
+            Expression::Math { fun, .. } => (!is_pinned(fun)).then(|| format!("{fun:?}")),
             _ => None,
-        })
-        .collect::<Vec<_>>()
-        .into_iter()
+        });
+        found.collect()
     }
 }
 
-fn insert<T: PartialEq>(list: &mut Vec<T>, item: T) {
-    if !list.contains(&item) {
-        list.push(item);
-    }
-}
-
-/// Functions of floats with one result on all devices.
+/// Returns whether a function of floats has one result on all devices.
 fn is_pinned(function: MathFunction) -> bool {
     use MathFunction::{Abs, Clamp, Floor, Max, Min};
     matches!(function, Abs | Clamp | Floor | Max | Min)
-}
-
-/// Returns whether the compiler of the pipeline, not the device, computes an expression.
-fn is_constant(function: &Function, at: Handle<Expression>) -> bool {
-    match function.expressions[at] {
-        Expression::Literal(_) | Expression::Constant(_) | Expression::Override(_) => true,
-        Expression::As { expr, .. } => is_constant(function, expr),
-        Expression::Binary { left, right, .. } => {
-            is_constant(function, left) && is_constant(function, right)
-        }
-        _ => false,
-    }
-}
-
-fn is_float(module: &Module, info: &FunctionInfo, at: Handle<Expression>) -> bool {
-    let kind = info[at].ty.inner_with(&module.types).scalar_kind();
-    kind == Some(ScalarKind::Float)
 }

@@ -5,11 +5,11 @@
 
 @group(0) @binding(2) var<storage, read> points: array<u32>;
 
-// A stroke: its first control point, and where its cluster lies. Numbers of steps count from the
+// A stroke: its first control point, and the place of its cluster. Numbers of steps count from the
 // lowest, so that a clamp to 0..1 of their share of the cluster's span rounds products.
 struct Curve {
     first_point: u32,
-    // Where all numbers are lowest.
+    // The point whose numbers are lowest; the origin if a gesture turns the cluster.
     low_px: vec2f,
     // A power of two, above the size of 2^16 steps in LOD pixels; and one step as a share of it.
     span_px: f32,
