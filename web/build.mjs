@@ -1,7 +1,7 @@
 // Builds the page, one HTML file with style and script into which engine and layout are put, and the
 // npm package with the element. Usage: node build.mjs FOLDER PAGE. The whole page goes to
-// FOLDER/guideway.html, its parts go as gzip to PAGE, from where the command takes them. The package
-// goes to dist beside this file.
+// FOLDER/guideway.html, its parts go as gzip to PAGE, from where the command takes them, with the
+// module of the widget for notebooks. The package goes to dist beside this file.
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
@@ -67,6 +67,10 @@ const packed = gzipSync(await readFile(engineFile), { level: 9 });
 await mkdir(pageFolder, { recursive: true });
 await writeFile(join(pageFolder, "engine.wasm.gz"), packed);
 await writeFile(join(pageFolder, "page.html.gz"), gzipSync(page, { level: 9 }));
+// The widget's engine comes from Python, never by address.
+const noUrl = { "import.meta.url": '""' };
+const widget = await bundle("widget.ts", { plugins, format: "esm", define: noUrl });
+await writeFile(join(pageFolder, "widget.js.gz"), gzipSync(widget, { level: 9 }));
 const element = `<script type="text/plain" id="engine">${packed.toString("base64")}</script>`;
 await writeFile(join(folder, "guideway.html"), page.replace("<!--ENGINE-->", () => element));
 

@@ -7,6 +7,8 @@
 >>> site.save("site.dxf")
 """
 
+from typing import Any
+
 from ._guideway import (
     Change,
     Finding,
@@ -34,7 +36,25 @@ __all__ = [
     "RouteStep",
     "Table",
     "Tiler",
+    "Widget",
     "check_many",
     "open",
     "tiles",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name != "Widget":
+        raise AttributeError(f"module 'guideway' has no attribute {name!r}")
+    # Only this needs anywidget.
+    try:
+        import anywidget  # noqa: F401
+    except ImportError as error:
+        from ._error import refusal
+
+        message = "`guideway.Widget` needs the package anywidget, which cannot be imported"
+        remedy = 'Install it: pip install "guideway[widget]"'
+        raise refusal(message, remedy, "missing-package") from error
+    from ._widget import Widget
+
+    return Widget

@@ -4,6 +4,8 @@ from typing import Any, Literal, Protocol, SupportsIndex, TypedDict, final, over
 
 from typing_extensions import Unpack
 
+from ._widget import Widget as Widget
+
 __all__ = [
     "Change",
     "Finding",
@@ -15,6 +17,7 @@ __all__ = [
     "RouteStep",
     "Table",
     "Tiler",
+    "Widget",
     "check_many",
     "open",
     "tiles",

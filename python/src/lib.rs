@@ -14,6 +14,7 @@
 //! | `items` | arguments that are lists of any kind |
 //! | `answers` | findings, routes and changes as Python objects |
 //! | `picture` | class `Picture`: pixels, PNG, SVG |
+//! | `widget` | what `guideway/_widget.py` shows in notebooks |
 //! | `error`, `signals` | exceptions; Ctrl-C and progress while Rust works |
 
 mod answers;
@@ -30,6 +31,7 @@ mod signals;
 mod stream;
 mod tables;
 mod tiles;
+mod widget;
 
 use pyo3::prelude::*;
 
@@ -52,4 +54,8 @@ mod _guideway {
     use crate::tables::Table;
     #[pymodule_export]
     use crate::tiles::{Tiler, tiles};
+    #[pymodule_export]
+    use crate::widget::{
+        widget_check, widget_engine, widget_layout, widget_missing, widget_module,
+    };
 }

@@ -2,6 +2,21 @@
 
 import { GuidewayError } from "./engine.js";
 
+/** The address of the engine beside this module, which has no address of its own in a notebook. */
+export function engineBesideModule(): string | URL {
+  try {
+    return new URL("./engine.wasm.gz", import.meta.url);
+  } catch {
+    return "";
+  }
+}
+
+/** The name of the file at an address; bytes of this page (`blob:`) have it as their fragment. */
+export function nameOf({ protocol, hash, pathname }: URL): string {
+  const isOfPage = protocol === "blob:";
+  return decodeURIComponent((isOfPage ? hash.slice(1) : pathname.split("/").pop()) ?? "");
+}
+
 /** Fetches a file. `name` is how errors call it. */
 export async function download(
   url: string | URL,

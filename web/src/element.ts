@@ -2,7 +2,7 @@
 
 import type { Box, Details, Findings, Info, Look, Picture, Point } from "./answers.js";
 import type { Report, Route, Summary } from "./answers.js";
-import { compiled, download } from "./download.js";
+import { compiled, download, engineBesideModule, nameOf } from "./download.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
 import type { ElementName, GuidewayViewEvents, Picked } from "./events.js";
 import { DARK, GuidewayMap, LIGHT, paintElement, type View } from "./map.js";
@@ -30,7 +30,7 @@ export class GuidewayView extends Base {
     ...SWITCHES,
   ];
   /** The address of the engine; set it before the first element is in a page. */
-  static engineUrl: string | URL = new URL("./engine.wasm.gz", import.meta.url);
+  static engineUrl: string | URL = engineBesideModule();
 
   private readonly shadow: Shadow;
   private readonly map: GuidewayMap;
@@ -163,6 +163,12 @@ export class GuidewayView extends Base {
     this.map.paint();
   }
 
+  /** Outlines an element as the pointer does, without an event. */
+  async pointAt(of: ElementName | null): Promise<void> {
+    this.pointer.hovered = of === null ? undefined : await this.details(of);
+    this.map.paint();
+  }
+
   /** Replaces all vehicles. Those that are elsewhere now go there within `durationMs`. */
   setVehicles(vehicles: Iterable<Vehicle>, { durationMs = 0 } = {}): void {
     this.fleet.set(vehicles, durationMs, performance.now());
@@ -228,10 +234,11 @@ export class GuidewayView extends Base {
     if (!src) return;
     const { signal } = (this.loading = new AbortController());
     try {
-      this.shadow.busy(`${src}: ${t("reading")}`);
       const url = new URL(src, this.baseURI);
-      const name = decodeURIComponent(url.pathname.split("/").pop() || src);
-      await this.openBytes(name, await download(url, src, signal), signal);
+      const name = nameOf(url) || src;
+      const shown = url.protocol === "blob:" ? name : src;
+      this.shadow.busy(`${shown}: ${t("reading")}`);
+      await this.openBytes(name, await download(url, shown, signal), signal);
     } catch (error) {
       if (!signal.aborted) this.fail(error);
     }

@@ -158,7 +158,8 @@ nbformat.validate(notebook)
 assert not any(cell.get('outputs') for cell in notebook.cells), 'clear the outputs'
 nbclient.execute(notebook, cwd='python/examples')
 shown = [output.get('data', {}) for cell in notebook.cells for output in cell.get('outputs', [])]
-assert sum('image/png' in data for data in shown) == 2, 'the site and a picture of it'
+assert sum('image/png' in data for data in shown) == 3, 'the site, a picture and the widget of it'
+assert sum('application/vnd.jupyter.widget-view+json' in data for data in shown) == 1, 'the widget'
 ";
 
 /// Tests the Python package: its own files beside the extension module that the workspace built.

@@ -106,6 +106,7 @@ pub(crate) fn rust_components() -> Result<()> {
 /// other programs, and for those of the Python package.
 pub(crate) fn python() -> Result<PathBuf> {
     let packages = [
+        "anywidget",
         "dask[dataframe]",
         "duckdb",
         "geopandas",
@@ -121,8 +122,8 @@ pub(crate) fn python() -> Result<PathBuf> {
         "pytest",
         "ray",
     ];
-    let modules = "import dask.dataframe, duckdb, geopandas, ipykernel, jsonschema, lxml, mypy, \
-                   nbclient, pandas, polars, pyarrow, pyright, pytest, ray.data";
+    let modules = "import anywidget, dask.dataframe, duckdb, geopandas, ipykernel, jsonschema, \
+                   lxml, mypy, nbclient, pandas, polars, pyarrow, pyright, pytest, ray.data";
     environment("python", &packages, modules)
 }
 

@@ -40,7 +40,7 @@ fn test() -> Result<()> {
         }
     }
     cargo(&["build", "--quiet", "--workspace", "--bin", "guideway"]).run()?;
-    for test in ["browser", "element", "firefox"] {
+    for test in ["browser", "element", "widget", "firefox"] {
         step::command("node")
             .args([format!("web/tests/{test}.mjs")])
             .run()?;
