@@ -31,6 +31,9 @@ pub(super) struct PathAssembler {
     refused: Vec<(usize, Fault)>,
     /// Numbers of the refused paths among all paths.
     refused_numbers: Vec<u32>,
+    /// Numbers of the paths that were not read, and how many they are.
+    skipped_numbers: Vec<Range<u32>>,
+    skipped_paths: u32,
     rows: usize,
     last: LastPath,
 }
@@ -156,6 +159,18 @@ impl PathAssembler {
         self.last = LastPath::None;
     }
 
+    /// Skips a batch with rows that begin `paths` paths, and that is not read. Numbers beyond
+    /// those of 32 bits have no rows.
+    pub(super) fn skip_paths(&mut self, rows: usize, paths: u32) {
+        let start = self.next_number();
+        let end = start.saturating_add(paths);
+        if start < end {
+            self.skipped_numbers.push(start..end);
+        }
+        self.skipped_paths += end - start;
+        self.skip(rows);
+    }
+
     /// Returns the number of rows so far.
     pub(super) fn rows(&self) -> usize {
         self.rows
@@ -196,7 +211,8 @@ impl PathAssembler {
 
     /// Returns the geometry of all paths, and their rows by their numbers in the table.
     pub(super) fn into_geometry(self) -> (Geometry, Numbering) {
-        let numbering = Numbering::new(self.refused_numbers.clone(), self.drawn_paths());
+        let rows = self.drawn_paths();
+        let numbering = Numbering::new(self.refused_numbers, self.skipped_numbers, rows);
         let (geometry, hulls): (Geometry, Hulls) = self.points.into_geometry(self.run_ends);
         let geometry = match self.path_ends {
             Some(path_ends) => geometry.with_path_ends(path_ends),
@@ -250,10 +266,15 @@ impl PathAssembler {
         self.add_drawn(self.rows + row..self.rows + row + 1, runs);
     }
 
+    /// Number of the next path of the table.
+    fn next_number(&self) -> u32 {
+        let read = self.drawn_paths() + self.refused_numbers.len();
+        (read as u32).saturating_add(self.skipped_paths)
+    }
+
     /// Refuses the path that begins with a row of the table.
     fn refuse(&mut self, row: usize, fault: Fault) {
-        let number = self.drawn_paths() + self.refused_numbers.len();
-        self.refused_numbers.push(number as u32);
+        self.refused_numbers.push(self.next_number());
         self.refused.push((row, fault));
         self.last = LastPath::Refused;
     }

@@ -24,6 +24,13 @@ use crate::finite::check_finite;
 use crate::source::WrittenPaths;
 use crate::write_error::WriteProblem;
 
+/// Paths per cluster of an index: see `guideway_scene::cluster`.
+const CLUSTER_PATHS: usize = 64;
+/// Rows per record batch of a layout in Hilbert order. Measured on D1 of two million paths: a view
+/// of 1 % of its square meets 2.0 % of the batches, of 4.4 % with [`BATCH_ROWS`], and reading all
+/// takes as long.
+const ORDERED_BATCH_ROWS: usize = 2048;
+
 /// Returns a layout as record batches, which hold all of it: of version 1 of the table if it has
 /// nothing but paths, else of version 2.
 ///
@@ -106,7 +113,12 @@ impl<'a> Batches<'a> {
         let (layout, kind) = (self.layout, self.kind);
         let mut batch: Vec<Row> = Vec::new();
         let (mut points, mut text_bytes) = (0, 0);
-        for row in &mut self.rows {
+        let is_ordered = layout.paths.is_hilbert_ordered();
+        let most_rows = match is_ordered {
+            true => ORDERED_BATCH_ROWS,
+            false => BATCH_ROWS,
+        };
+        while let Some(row) = self.rows.next() {
             if kind == Element::Path && row.part == 0 {
                 written_paths.count();
             }
@@ -114,7 +126,12 @@ impl<'a> Batches<'a> {
             points += points_of(layout, kind, row);
             let text = self.sources.iter().map(|s| s.text_bytes(layout, kind, row));
             text_bytes += text.sum::<usize>();
-            let is_full = batch.len() >= BATCH_ROWS
+            // Whole clusters of paths in order, so that a part of a file has those of all of it.
+            let ends_cluster = |next: Option<&Row>| {
+                next.is_none_or(|next| next.part == 0 && next.index % CLUSTER_PATHS == 0)
+            };
+            let may_end = kind != Element::Path || !is_ordered || ends_cluster(self.rows.peek());
+            let is_full = (batch.len() >= most_rows && may_end)
                 || points >= BATCH_POINTS
                 || text_bytes >= BATCH_TEXT_BYTES;
             if is_full {

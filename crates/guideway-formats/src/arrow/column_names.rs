@@ -64,6 +64,9 @@ pub(super) const NETWORK_VERSION: u32 = 2;
 /// Metadata keys of the schema that hold the place on earth of the origin.
 pub(super) const LONGITUDE_KEY: &str = "guideway.longitude_deg";
 pub(super) const LATITUDE_KEY: &str = "guideway.latitude_deg";
+/// Metadata key of the footer that holds the order of the paths, and its value for a Hilbert curve.
+pub(super) const ORDER_KEY: &str = "guideway.order";
+pub(super) const HILBERT_ORDER: &str = "hilbert";
 /// Metadata key of a field that holds the unit of its numbers.
 pub(super) const UNIT_KEY: &str = "unit";
 /// Metadata of a field of JSON texts: the canonical extension type of Arrow, which polars keeps and

@@ -8,6 +8,7 @@ use arrow_schema::Schema;
 use guideway_layout::Place;
 
 use super::catch_decode_panic::catch_decode_panic;
+use super::column_names::{HILBERT_ORDER, ORDER_KEY};
 use super::extents::{EXTENTS_KEY, Extent, extents};
 use super::problems::damaged;
 use crate::Problem;
@@ -28,6 +29,8 @@ const LEADER_BYTES: usize = 8;
 pub(super) struct Container {
     pub(super) schema: Schema,
     pub(super) messages: Vec<Message>,
+    /// The paths follow a Hilbert curve.
+    pub(super) is_hilbert_ordered: bool,
 }
 
 /// Ranges of a message: the header (length and flatbuffer) and the body (the buffers that it
@@ -104,6 +107,7 @@ fn open_file(input: &Input<'_>) -> Result<Container, Problem> {
     Ok(Container {
         schema: convert_schema(schema)?,
         messages: file_messages(&footer, footer_at)?,
+        is_hilbert_ordered: metadata(&footer, ORDER_KEY) == Some(HILBERT_ORDER),
     })
 }
 
@@ -130,12 +134,16 @@ fn file_messages(footer: &Footer<'_>, footer_at: usize) -> Result<Vec<Message>, 
 /// Returns the extents of the record batches that the metadata of the footer states. They are
 /// ignored unless they are those of these batches.
 fn extents_of(footer: &Footer<'_>) -> impl Iterator<Item = Option<Extent>> {
-    let mut metadata = footer.custom_metadata().into_iter().flatten();
-    let text = metadata.find(|entry| entry.key() == Some(EXTENTS_KEY));
-    let text = text.and_then(|entry| entry.value());
+    let text = metadata(footer, EXTENTS_KEY);
     let batches = footer.recordBatches().map_or(0, |batches| batches.len());
     let all = text.and_then(|text| extents(text, batches));
     all.into_iter().flatten()
+}
+
+/// Returns a text of the metadata of the footer.
+fn metadata<'a>(footer: &Footer<'a>, key: &str) -> Option<&'a str> {
+    let mut metadata = footer.custom_metadata().into_iter().flatten();
+    metadata.find(|entry| entry.key() == Some(key))?.value()
 }
 
 /// Returns the range of the header with its length prefix, and the end of the body.
@@ -188,7 +196,11 @@ fn open_stream(input: &Input<'_>) -> Result<Container, Problem> {
     while let Some((message, _)) = cursor.next()? {
         messages.push(message);
     }
-    Ok(Container { schema, messages })
+    Ok(Container {
+        schema,
+        messages,
+        is_hilbert_ordered: false,
+    })
 }
 
 /// Cursor over the messages of a stream.

@@ -135,10 +135,9 @@ impl NodeColumn {
     /// Returns the rows of the nodes.
     fn finish(mut self, nodes: &Numbering, diagnostics: &mut Diagnostics) -> Vec<u32> {
         for value in self.values.iter_mut().filter(|value| **value != NONE) {
-            *value = nodes.row(*value).unwrap_or_else(|| {
-                self.invalid += 1;
-                NONE
-            });
+            let number = *value;
+            *value = nodes.row(number).unwrap_or(NONE);
+            self.invalid += u64::from(*value == NONE && !nodes.is_skipped(number));
         }
         if self.invalid > 0 {
             diagnostics.push(

@@ -5,6 +5,7 @@ use guideway_spline::Bounds;
 
 use super::column_names::PATHS_VERSION;
 use super::container::{Container, Message};
+use super::extents::Extent;
 use super::schema::{ColumnRoles, Role};
 use crate::input::Input;
 use crate::source::{BYTES_READ, FILE_BYTES, Source};
@@ -19,9 +20,9 @@ pub(super) struct Part {
 impl Part {
     /// The part of a table that a read needs; `None` for all of it.
     ///
-    /// A table with elements beside the paths is read whole, because they refer to paths by number,
-    /// and so is one whose ranks may be missing: they are numbers of paths too. So is one without a
-    /// batch in the area, which could not say where its paths are.
+    /// A table of paths whose ranks may be missing is read whole: such ranks are numbers of paths.
+    /// A network that states extents has all ranks, or none. A table without a batch in the area
+    /// is read whole too: its part could not say where its paths are.
     pub(super) fn of(
         source: Source<'_>,
         input: &Input<'_>,
@@ -29,13 +30,20 @@ impl Part {
         columns: &ColumnRoles,
     ) -> Option<Self> {
         let area = source.options.area?;
-        let has_ranks = columns
-            .get(Role::Rank)
-            .is_none_or(|rank| !container.schema.field(rank).is_nullable());
         let batches = container.messages.iter();
         let batches = batches.filter_map(|message| Some((message, message.extent?)));
-        let meets_any = batches.clone().any(|(_, extent)| extent.meets(area));
-        if columns.version != PATHS_VERSION || !has_ranks || !meets_any {
+        let is_known = match columns.version {
+            PATHS_VERSION => columns
+                .get(Role::Rank)
+                .is_none_or(|rank| !container.schema.field(rank).is_nullable()),
+            // Elements refer to paths and nodes by number.
+            _ => batches.clone().all(|(_, extent)| extent.begun.is_some()),
+        };
+        let has_paths = |extent: Extent| extent.begun.is_none_or(|[paths, _]| paths > 0);
+        let meets_any = batches
+            .clone()
+            .any(|(_, extent)| has_paths(extent) && extent.meets(area));
+        if !is_known || !meets_any {
             return None;
         }
         let beyond = batches.filter(|(_, extent)| !extent.meets(area));

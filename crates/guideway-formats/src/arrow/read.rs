@@ -17,6 +17,7 @@ use super::container::{self, Message};
 use super::decode::{Decoded, Decoder};
 use super::element::Element;
 use super::elements::ElementTables;
+use super::extents::Extent;
 use super::id_column;
 use super::part::Part;
 use super::path_columns::PathColumns;
@@ -66,8 +67,8 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     };
     let mut next = batches.next()?;
     let mut reader = TableReader::new(input, reading, diagnostics);
-    while let Some(Step::Skipped(rows)) = next {
-        reader.skip(rows);
+    while let Some(Step::Skipped(extent)) = next {
+        reader.skip(extent);
         next = batches.next()?;
     }
     if let Some(Step::Batch(first)) = &next {
@@ -80,6 +81,9 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
         next = decoded?;
     }
     let mut layout = reader.into_layout(source.name)?;
+    if container.is_hilbert_ordered {
+        layout.paths.set_hilbert_ordered();
+    }
     if let Some(part) = part {
         part.count(&mut layout);
     }
@@ -99,8 +103,8 @@ pub(super) fn table_columns(
 /// The next rows of a table.
 enum Step {
     Batch(Box<Decoded>),
-    /// A number of rows beyond the area.
-    Skipped(usize),
+    /// A batch beyond the area.
+    Skipped(Extent),
 }
 
 /// Decoded batches of a file, in order.
@@ -129,7 +133,7 @@ impl BatchStream<'_> {
                 }
             }
             if let Some(extent) = message.extent.filter(|_| self.skips(message)) {
-                return Ok(Some(Step::Skipped(extent.rows)));
+                return Ok(Some(Step::Skipped(extent)));
             }
             if let Some(batch) = self.decoder.decode(message, self.budget)? {
                 return Ok(Some(Step::Batch(Box::new(batch))));
@@ -197,16 +201,18 @@ impl<'a> TableReader<'a> {
     fn take(&mut self, step: &Step) -> Result<(), Problem> {
         match step {
             Step::Batch(decoded) => self.add(decoded),
-            Step::Skipped(rows) => {
-                self.skip(*rows);
+            Step::Skipped(extent) => {
+                self.skip(*extent);
                 Ok(())
             }
         }
     }
 
-    /// Counts rows that are not read.
-    fn skip(&mut self, rows: usize) {
-        self.assembler.skip(rows);
+    /// Counts the elements of a batch that is not read.
+    fn skip(&mut self, extent: Extent) {
+        let [paths, nodes] = extent.begun.unwrap_or([extent.rows as u32, 0]);
+        self.assembler.skip_paths(extent.rows, paths);
+        self.elements.skip_nodes(nodes);
         self.last_id = None;
     }
 

@@ -6,6 +6,7 @@ use arrow_array::RecordBatch;
 use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
 use arrow_schema::SchemaRef;
 
+use super::column_names::{HILBERT_ORDER, ORDER_KEY};
 use super::extents::{EXTENTS_KEY, Extents};
 use crate::write_error::WriteProblem;
 
@@ -44,6 +45,11 @@ impl<W: Write> IpcFile<W> {
     pub(super) fn write(&mut self, batch: &RecordBatch) -> Result<(), WriteProblem> {
         self.extents.push(batch);
         Ok(self.writer.write(batch)?)
+    }
+
+    /// States that the paths follow a Hilbert curve.
+    pub(super) fn set_hilbert_ordered(&mut self) {
+        self.writer.write_metadata(ORDER_KEY, HILBERT_ORDER);
     }
 
     /// Ends the file, with the extents of its batches. Returns the stream.

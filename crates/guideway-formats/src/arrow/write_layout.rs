@@ -52,6 +52,9 @@ pub(crate) fn write_watched(
     while let Some(batch) = batches.next_batch(written_paths) {
         file.write(&batch?)?;
     }
+    if layout.paths.is_hilbert_ordered() {
+        file.set_hilbert_ordered();
+    }
     file.finish()?.flush()?;
     Ok(Losses::default())
 }

@@ -2,7 +2,7 @@
 
 use guideway_formats::arrow::{WriteOptions, write_layout};
 use guideway_formats::{BYTES_READ, FILE_BYTES, ReadOptions, read_bytes};
-use guideway_layout::{Layout, NewPath};
+use guideway_layout::{Attribute, Attributes, Block, Layout, Member, NewPath, TypeEntries, Values};
 use guideway_spline::{Bounds, Point, Runs};
 
 /// Rows of a record batch.
@@ -144,8 +144,118 @@ fn all_is_read_where_a_part_could_not_stand_alone() {
         Some(2 * BATCH as i32 - 1)
     );
     assert_eq!(part.paths.len(), BATCH);
-    // Nodes refer to paths, and paths to nodes, by their numbers.
-    layout.nodes.push("N", Point::new(0.0, 0.0), None);
-    let whole = read(&bytes(&layout), near);
-    assert!(!is_part(&whole) && whole.paths.len() == 2 * BATCH);
+}
+
+/// A network along the x axis: a node per meter, a path from each node to the next one, with a
+/// property for one of two vehicle types, and a station and a block per kilometer.
+fn network(count: usize) -> Layout {
+    let mut layout = lines(0.0, count);
+    for at in 0..=count {
+        let position = Point::new(at as f64, 0.0);
+        layout.nodes.push(&format!("node-{at}"), position, None);
+    }
+    for path in 0..count {
+        let [start, end] = [path, path + 1].map(|node| Some(node as u32));
+        layout.paths.set_nodes(path, start, end);
+    }
+    let mut types = TypeEntries::default();
+    (0..count).for_each(|_| types.push(&["tugger", "stacker"]));
+    let speeds = (0..2 * count).map(|entry| Some(entry as f64)).collect();
+    let speeds = Attribute::new("maxSpeed", Values::Float(speeds));
+    types.attributes.insert(speeds);
+    *layout.paths.vehicle_types_mut() = types;
+    for at in (0..count).step_by(1000) {
+        let nodes = vec![at as u32];
+        layout
+            .stations
+            .push(&format!("station-{at}"), None, nodes, None);
+        layout.blocks.push(Block {
+            id: format!("block-{at}"),
+            members: vec![Member::Path(at as u32), Member::Node(at as u32)],
+            attributes: Attributes::default(),
+        });
+    }
+    layout
+}
+
+#[test]
+fn a_part_of_a_network_has_its_nodes_and_the_properties_per_type() {
+    let count = 4 * BATCH;
+    let file = bytes(&network(count));
+    let whole = read(&file, None);
+    assert!(!is_part(&whole) && whole.diagnostics.is_empty());
+    let at = 2 * BATCH + 100;
+    let part = read(&file, Some([at as f64, at as f64 + 10.0]));
+    assert!(is_part(&part));
+    let listed: Vec<String> = part.diagnostics.iter().map(|d| d.message.clone()).collect();
+    assert!(part.diagnostics.is_empty(), "{listed:?}");
+    assert_eq!(part.paths.len(), BATCH);
+    assert_eq!(part.nodes.len(), BATCH);
+    // Everything that refers to others refers to the same ones.
+    for path in part.paths.iter() {
+        let number: usize = path.id()["line-".len()..].parse().unwrap();
+        let of_whole = whole.paths.get(number);
+        assert_eq!(path.id(), of_whole.id());
+        let node = |layout: &Layout, node: Option<u32>| node.map(|n| layout.nodes.id(n).to_owned());
+        assert_eq!(
+            node(&part, path.start_node()),
+            node(&whole, of_whole.start_node())
+        );
+        // The last path leads to a node of a batch beyond the area.
+        let is_last = path.row() + 1 == BATCH;
+        let end = node(&whole, of_whole.end_node()).filter(|_| !is_last);
+        assert_eq!(node(&part, path.end_node()), end);
+        let speeds = |layout: &Layout, row: usize| {
+            let types = layout.paths.vehicle_types();
+            let column = types.attributes.get("maxSpeed").unwrap();
+            let entries = types.entries(row);
+            let values = entries.map(|entry| column.values.get(entry).unwrap().to_string());
+            values.collect::<Vec<_>>()
+        };
+        assert_eq!(speeds(&part, path.row()), speeds(&whole, number));
+    }
+    // Stations and blocks are all there, with what is in the part.
+    assert_eq!(part.stations.len(), whole.stations.len());
+    assert_eq!(part.blocks.len(), whole.blocks.len());
+    let members: Vec<_> = part.blocks.iter().flat_map(|of| &of.members).collect();
+    let near = (2 * BATCH..3 * BATCH).filter(|at| at % 1000 == 0).count();
+    assert_eq!(members.len(), 2 * near);
+    for member in members {
+        let id = match *member {
+            Member::Path(row) => &part.paths.id(row as usize)["line-".len()..],
+            Member::Node(row) => &part.nodes.id(row)["node-".len()..],
+            Member::Station(_) => unreachable!("blocks have no stations"),
+        };
+        assert_eq!(id.parse::<usize>().unwrap() % 1000, 0);
+    }
+    let count = |name| part.provenance.count(name).expect("a count") as f64;
+    let share = count(BYTES_READ) / count(FILE_BYTES);
+    assert!((0.2..0.35).contains(&share), "{share}");
+    // A number beyond the table is still a fault, in a part too.
+    let mut faulty = network(4 * BATCH);
+    faulty.paths.set_nodes(at, Some(1_000_000), None);
+    let part = read(&bytes(&faulty), Some([at as f64, at as f64 + 10.0]));
+    assert!(is_part(&part) && part.diagnostics.iter().count() == 1);
+}
+
+#[test]
+fn rows_in_hilbert_order_say_so_and_batches_end_with_clusters() {
+    let mut layout = lines(0.0, 2 * BATCH);
+    // Two runs: rows and paths are not the same.
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(-50.0, 0.0), Point::new(-40.0, 0.0));
+    runs.push_line(Point::new(-40.0, 0.0), Point::new(-40.0, 9.0));
+    push(&mut layout, "corner", &runs);
+    assert!(!read(&bytes(&layout), None).paths.is_hilbert_ordered());
+    let rows: Vec<usize> = [2 * BATCH].into_iter().chain(0..2 * BATCH).collect();
+    layout.retain_paths(&rows);
+    layout.paths.set_hilbert_ordered();
+    let file = bytes(&layout);
+    assert!(read(&file, None).paths.is_hilbert_ordered());
+    let part = read(&file, Some([20_000.0, 20_010.0]));
+    assert!(is_part(&part) && part.paths.is_hilbert_ordered());
+    let first: usize = part.paths.id(0)["line-".len()..].parse().unwrap();
+    assert_eq!((first + 1) % 64, 0, "the part begins within a cluster");
+    push(&mut layout, "another", &runs);
+    assert!(!layout.paths.is_hilbert_ordered());
 }

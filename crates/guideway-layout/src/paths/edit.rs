@@ -9,6 +9,11 @@ use crate::optional_column::{column_for, set};
 use crate::{Direction, Geometry, OwnStyle, TypeEntries, WrittenCurve, WrittenCurves};
 
 impl Paths {
+    /// States that the rows follow a Hilbert curve, until rows are appended or selected.
+    pub fn set_hilbert_ordered(&mut self) {
+        self.is_hilbert_ordered = true;
+    }
+
     /// Sets the stroke width of every path, in meters; NaN where the rule of the view decides.
     ///
     /// # Panics

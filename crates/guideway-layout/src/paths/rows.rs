@@ -33,6 +33,7 @@ impl Paths {
             color_rgba: pick(&self.color_rgba, rows),
             rank: pick(&self.rank, rows),
             written_curves: self.written_curves.select(rows),
+            is_hilbert_ordered: false,
             attributes: self.attributes.select(rows),
             source: self.source.select(rows),
         }
@@ -46,6 +47,7 @@ impl Paths {
         level: impl Fn(u32) -> u32,
     ) {
         let (first, rows) = (self.len(), other.len());
+        self.is_hilbert_ordered = false;
         let mut runs = Runs::default();
         for path in other.iter() {
             path.copy_runs(&mut runs);

@@ -28,6 +28,7 @@ pub struct Paths {
     pub(super) color_rgba: OptionalColumn<u32>,
     pub(super) rank: OptionalColumn<i32>,
     pub(super) written_curves: WrittenCurves,
+    pub(super) is_hilbert_ordered: bool,
     /// Further columns. A property that differs between the vehicle types of a path is in the
     /// entries of [`Self::vehicle_types`] instead.
     pub attributes: Attributes,
@@ -57,6 +58,7 @@ impl Paths {
 
     /// Appends a path and returns its row.
     pub fn push(&mut self, path: &NewPath<'_>) -> usize {
+        self.is_hilbert_ordered = false;
         self.ids.push(path.id);
         self.geometry.push(path.runs);
         let row = self.ids.len() - 1;
@@ -91,6 +93,13 @@ impl Paths {
     /// Returns `true` if there are no paths.
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
+    }
+
+    /// Returns `true` if the rows follow a Hilbert curve, so that an index need not sort them:
+    /// rows near each other are near each other in the plane. A file says so; edits of curves may
+    /// make it less true, which costs speed alone.
+    pub fn is_hilbert_ordered(&self) -> bool {
+        self.is_hilbert_ordered
     }
 
     /// Identifier of a path.

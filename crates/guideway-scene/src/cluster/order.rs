@@ -40,6 +40,15 @@ impl ClusterOrder {
         }
     }
 
+    /// The rows `0..count` in their own order, which follows a Hilbert curve already.
+    pub fn of_sorted_rows(count: usize) -> Self {
+        Self {
+            rows: (0..count as u32).collect(),
+            copies: Vec::new(),
+            places: OnceLock::new(),
+        }
+    }
+
     /// All rows, those of a cluster next to each other.
     pub fn rows(&self) -> &[u32] {
         &self.rows
@@ -152,6 +161,13 @@ mod tests {
             assert_eq!(order.place(row), Some(place));
         }
         assert_eq!(order.rows_of(3).len(), 210 - 3 * CLUSTER_LEN);
+    }
+
+    #[test]
+    fn sorted_rows_stay_where_they_are() {
+        let order = ClusterOrder::of_sorted_rows(150);
+        assert!(order.rows().iter().copied().eq(0..150));
+        assert_eq!((order.cluster_count(), order.place(140)), (3, Some(140)));
     }
 
     #[test]

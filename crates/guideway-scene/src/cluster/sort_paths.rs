@@ -5,8 +5,9 @@ use guideway_spline::Bounds;
 
 use super::hilbert_order;
 
-/// Sorts the paths of a layout along a Hilbert curve, so that each part of a file has paths near
-/// each other. Ranks keep the draw order: they count the paths in that order.
+/// Sorts the paths of a layout along a Hilbert curve, and its nodes likewise, so that each part of
+/// a file has elements near each other. Ranks keep the draw order: they count the paths in that
+/// order.
 ///
 /// Cost: O(n log n), and the memory of a second layout meanwhile.
 pub fn sort_paths(layout: &mut Layout) {
@@ -23,8 +24,18 @@ pub fn sort_paths(layout: &mut Layout) {
     paths.set_rank(ranks);
     let center = |row: usize| paths.get(row).hull_bounds().map(Bounds::center);
     let rows = hilbert_order(count, paths.hull_bounds(), center);
-    let rows: Vec<usize> = rows.into_iter().map(|row| row as usize).collect();
-    layout.retain_paths(&rows);
+    layout.retain_paths(&wide(rows));
+    layout.paths.set_hilbert_ordered();
+    let nodes = &layout.nodes;
+    let position = |row: usize| nodes.position_m(row as u32);
+    let bounds = Bounds::of_points((0..nodes.len()).map(position));
+    let rows = hilbert_order(nodes.len(), bounds, |row| Some(position(row)));
+    let stations: Vec<usize> = (0..layout.stations.len()).collect();
+    layout.retain_nodes_and_stations(&wide(rows), &stations);
+}
+
+fn wide(rows: Vec<u32>) -> Vec<usize> {
+    rows.into_iter().map(|row| row as usize).collect()
 }
 
 #[cfg(test)]
@@ -80,5 +91,37 @@ mod tests {
         let before = drawn(&layout);
         sort_paths(&mut layout);
         assert_eq!(drawn(&layout), before);
+    }
+
+    #[test]
+    fn nodes_are_sorted_too_and_paths_keep_theirs() {
+        let mut layout = Layout::default();
+        let at = |number: u32| Point::new(f64::from(number * 37 % 32), f64::from(number % 29));
+        for number in 0..512 {
+            layout
+                .nodes
+                .push(&format!("node-{number}"), at(number), None);
+            let mut runs = Runs::default();
+            runs.push_line(at(number), at(number) + Point::new(1.0, 0.0));
+            layout.paths.push(&NewPath {
+                id: &format!("path-{number}"),
+                runs: &runs,
+                start_node: Some(number),
+                ..NewPath::default()
+            });
+        }
+        let steps = |layout: &Layout| {
+            let positions = (0..511).map(|row| [row, row + 1].map(|n| layout.nodes.position_m(n)));
+            positions.map(|[a, b]| a.distance(b)).sum::<f64>()
+        };
+        let far = steps(&layout);
+        assert!(!layout.paths.is_hilbert_ordered());
+        sort_paths(&mut layout);
+        assert!(layout.paths.is_hilbert_ordered());
+        assert!(steps(&layout) < far / 4.0, "{far} {}", steps(&layout));
+        for path in layout.paths.iter() {
+            let node = path.start_node().map(|node| layout.nodes.id(node));
+            assert_eq!(node, Some(path.id().replace("path", "node").as_str()));
+        }
     }
 }

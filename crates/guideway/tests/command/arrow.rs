@@ -290,7 +290,7 @@ fn a_view_of_a_sorted_file_reads_a_part_and_draws_the_same_picture() {
     for (style, is_read_in_part) in [
         (&[][..], true),
         (&["--shade", "density"], true),
-        (&["--grid", "--method", "cpu"], true),
+        (&["--grid"], true),
         (&["--arrows"], false),
         (&["--color-by", "max_speed"], false),
     ] {
@@ -304,20 +304,11 @@ fn a_view_of_a_sorted_file_reads_a_part_and_draws_the_same_picture() {
         match style {
             // Arrows give way to those of paths of lower numbers.
             ["--arrows"] => {}
-            // It approximates curves that go on from each other as one, and finds them among some
-            // neighbors: 20 of 255 steps where a part of the paths has other neighbors.
-            [.., "cpu"] => {
-                let steps = a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b));
-                let most = steps.max().unwrap_or_default();
-                assert!(most < 32, "{most} steps");
-            }
             _ => assert!(a == b, "{style:?}"),
         }
         let drawn = |report: &serde_json::Value| report["paths"]["drawn"].as_u64().unwrap();
         assert!(drawn(&reports[0]) > 100, "{}", reports[0]);
-        if !style.contains(&"cpu") {
-            assert_eq!(drawn(&reports[0]), drawn(&reports[1]), "{style:?}");
-        }
+        assert_eq!(drawn(&reports[0]), drawn(&reports[1]), "{style:?}");
         let read = &reports[1]["read"];
         assert_eq!(read.is_object(), is_read_in_part, "{style:?}: {read}");
         if is_read_in_part {
@@ -325,5 +316,59 @@ fn a_view_of_a_sorted_file_reads_a_part_and_draws_the_same_picture() {
             assert_eq!(bytes("of_bytes"), fs::metadata(&sorted).unwrap().len());
             assert!(2 * bytes("bytes") < bytes("of_bytes"), "{read}");
         }
+    }
+}
+
+#[test]
+fn cpu_draws_a_part_of_a_sorted_file_with_the_bits_of_all_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    let [first, sorted, unsorted] = ["d1.arrow", "sorted.arrow", "unsorted.arrow"].map(file);
+    let generated = generate(&first, &["d1", "--paths", "70000", "--seed", "3"]);
+    assert!(generated.status.success(), "{}", stderr(&generated));
+    let convert = command()
+        .arg("convert")
+        .args([&first, &sorted])
+        .arg("--hilbert")
+        .output();
+    let converted = convert.unwrap();
+    assert!(converted.status.success(), "{}", stderr(&converted));
+    // A reader that knows no extents reads all of it.
+    let mut bytes = fs::read(&sorted).unwrap();
+    let key = b"guideway.extents";
+    let at = bytes.windows(key.len()).rposition(|at| at == key).unwrap();
+    bytes[at + key.len() - 1] = b'z';
+    fs::write(&unsorted, bytes).unwrap();
+
+    let render = |input: &Path, output: &Path, args: &[&str]| {
+        let mut all = command();
+        all.arg("render").arg(input).arg("-o").arg(output);
+        all.args(["--size", "320x200", "--method", "cpu"])
+            .args(args);
+        json(&all.arg("--json").output().unwrap(), "render")
+    };
+    let whole = render(&sorted, &file("all.png"), &[]);
+    let view = &whole["view"];
+    let number = |key: &str, axis: usize| view[key][axis].as_f64().unwrap();
+    for (along, factor) in [(0.1, 4.0), (0.25, 10.0), (0.4, 40.0)] {
+        let side = number("max_m", 0) - number("min_m", 0);
+        let center = [
+            number("center_m", 0) + along * side,
+            number("center_m", 1) + along * (number("max_m", 1) - number("min_m", 1)) / 2.0,
+        ];
+        let center = center.map(|at| at.to_string()).join(",");
+        let scale = (factor * view["px_per_m"].as_f64().unwrap()).to_string();
+        let args = ["--center", &center, "--scale", &scale];
+        let pictures = ["a.png", "b.png"].map(file);
+        let reports = [
+            render(&sorted, &pictures[0], &args),
+            render(&unsorted, &pictures[1], &args),
+        ];
+        let is_part = reports.each_ref().map(|report| report["read"].is_object());
+        assert_eq!(is_part, [true, false], "{args:?}");
+        let [part, all] = pictures.map(|picture| read_png(&picture).2);
+        assert!(part == all, "{args:?}");
+        let drawn = reports[0]["paths"]["drawn"].as_u64().unwrap();
+        assert!(drawn > 20, "{drawn}");
     }
 }

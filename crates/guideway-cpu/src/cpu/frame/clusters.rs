@@ -86,10 +86,17 @@ fn own_widths(scene: &Scene) -> OwnWidths {
 
 impl PreparedClusters {
     /// Sorts the paths of a scene into clusters. All threads share the work.
+    ///
+    /// Curves of one cluster are drawn as one where they go on from each other, so pictures depend
+    /// on the clusters. Rows in Hilbert order are not sorted again: then a part of a file, which
+    /// has whole clusters, gives the bits of all of it.
     pub(crate) fn new(scene: &Scene) -> Self {
         let hulls = scene.hulls();
         let center = |row: usize| hulls.of([row]).map(Bounds::center);
-        let order = ClusterOrder::sorted(hulls.len(), hulls.all(), center);
+        let order = match scene.layout().paths.is_hilbert_ordered() {
+            true => ClusterOrder::of_sorted_rows(hulls.len()),
+            false => ClusterOrder::sorted(hulls.len(), hulls.all(), center),
+        };
         let scene_hulls = SceneHulls(scene);
         let index = ClusterIndex::new(order, |paths| scene_hulls.stored_hull(paths));
         let mut cache = LineCache::default();

@@ -72,6 +72,11 @@ impl<'a> ElementRows<'a> {
         roles.try_for_each(|(_, column)| column.add(batch))
     }
 
+    /// Returns the number of rows so far.
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
     /// Returns the rows.
     pub(super) fn finish(self, diagnostics: &mut Diagnostics) -> Result<ReadRows<'a>, Problem> {
         let mut roles = Vec::new();

@@ -163,7 +163,13 @@ impl<'a> BlockRows<'a> {
         for (row, numbers) in self.members.into_iter().enumerate() {
             let members: Vec<Member> = numbers.iter().filter_map(known).collect();
             let id = rows.ids.get(row);
-            let unknown = numbers.len() - members.len();
+            let is_skipped = |&(kind, number): &(Option<Element>, u32)| match kind {
+                Some(Element::Path) => paths.is_skipped(number),
+                Some(Element::Node) => nodes.is_skipped(number),
+                _ => false,
+            };
+            let skipped = numbers.iter().filter(|member| is_skipped(member)).count();
+            let unknown = numbers.len() - skipped - members.len();
             if unknown > 0 {
                 faults.report(
                     Code::UnknownValue,

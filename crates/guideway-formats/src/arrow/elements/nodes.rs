@@ -1,5 +1,8 @@
 //! Node rows: positions, levels and vehicle types of the nodes.
 
+use std::iter;
+use std::ops::Range;
+
 use guideway_layout::Nodes;
 use guideway_spline::Point;
 
@@ -19,6 +22,8 @@ pub(super) struct NodeRows<'a> {
     rows: ElementRows<'a>,
     levels: Option<LevelColumn<'a>>,
     types: Option<TypeLists>,
+    /// Numbers of the nodes that were not read.
+    skipped: Vec<Range<u32>>,
 }
 
 impl<'a> NodeRows<'a> {
@@ -27,6 +32,23 @@ impl<'a> NodeRows<'a> {
             rows: ElementRows::new(Element::Node, reading, &[Role::X, Role::Y]),
             levels: LevelColumn::new(reading, 0),
             types: TypeLists::new(reading),
+            skipped: Vec::new(),
+        }
+    }
+
+    /// Counts nodes that are not read.
+    pub(super) fn skip(&mut self, count: u32) {
+        let skipped: u32 = self
+            .skipped
+            .iter()
+            .map(|numbers| numbers.len() as u32)
+            .sum();
+        let start = (self.rows.len() as u32).saturating_add(skipped);
+        let end = start.saturating_add(count);
+        match self.skipped.last_mut() {
+            Some(last) if last.end == start => last.end = end,
+            _ if start < end => self.skipped.push(start..end),
+            _ => {}
         }
     }
 
@@ -52,14 +74,15 @@ impl<'a> NodeRows<'a> {
         let of_nodes = of_nodes.map(|column| column.finish(levels, "nodes", faults.diagnostics));
         let mut nodes = Nodes::default();
         let (mut kept, mut missing) = (Vec::new(), Vec::new());
-        for row in 0..rows.len() {
+        let numbers = read_numbers(&self.skipped);
+        for (row, number) in (0..rows.len()).zip(numbers) {
             let id = rows.ids.get(row);
             let position = [Role::X, Role::Y].map(|role| rows.number(role, row));
             let remedy = "The node is left out; write its position in meters";
             let position = faults.position(Element::Node, id, position, remedy);
             match position {
                 Some(_) => kept.push(row),
-                None => missing.push(row as u32),
+                None => missing.push(number),
             }
             let position = position.unwrap_or(Point::new(0.0, 0.0));
             nodes.push(id, position, level_at(of_nodes.as_ref(), row));
@@ -72,6 +95,17 @@ impl<'a> NodeRows<'a> {
             nodes = nodes.select(&kept);
         }
         let count = nodes.len();
-        Ok((nodes, Numbering::new(missing, count)))
+        Ok((nodes, Numbering::new(missing, self.skipped, count)))
     }
+}
+
+/// The numbers between those that were not read; a number that no row has beyond those of 32 bits.
+fn read_numbers(skipped: &[Range<u32>]) -> impl Iterator<Item = u32> + use<> {
+    let starts = [0]
+        .into_iter()
+        .chain(skipped.iter().map(|numbers| numbers.end));
+    let ends = skipped.iter().map(|numbers| numbers.start);
+    let ranges: Vec<_> = starts.zip(ends.chain([u32::MAX])).collect();
+    let numbers = ranges.into_iter().flat_map(|(start, end)| start..end);
+    numbers.chain(iter::repeat(u32::MAX))
 }

@@ -69,7 +69,7 @@ impl<'a> StationRows<'a> {
                 [None, None] => None,
                 position => faults.position(Element::Station, id, position, remedy),
             };
-            let count = numbers.len();
+            let count = numbers.iter().filter(|&&n| !nodes.is_skipped(n)).count();
             let known: Vec<u32> = numbers.into_iter().filter_map(|n| nodes.row(n)).collect();
             if known.len() < count {
                 let unknown = count - known.len();

@@ -70,6 +70,11 @@ impl<'a> ElementTables<'a> {
         }
     }
 
+    /// Counts nodes that are not read.
+    pub(in crate::arrow) fn skip_nodes(&mut self, count: u32) {
+        self.nodes.skip(count);
+    }
+
     /// Returns a layout of all elements: the paths of `columns`, with the curves and the rows by
     /// their numbers that `assembled` has, and the elements of this.
     pub(in crate::arrow) fn into_layout(

@@ -57,7 +57,11 @@ impl<'a> TypeRows<'a> {
         let mut next = 0;
         for row in 0..rows.len() {
             let vehicle_type = rows.ids.get(row);
-            let element = rows.index(Role::Of, row).and_then(|of| elements.row(of));
+            let of = rows.index(Role::Of, row);
+            if of.is_some_and(|of| elements.is_skipped(of)) {
+                continue;
+            }
+            let element = of.and_then(|of| elements.row(of));
             let of_element = element.map_or(0..0, |e| entries.entries(e as usize));
             let is_free =
                 |&entry: &usize| row_of[entry] == NONE && entries.type_of(entry) == vehicle_type;

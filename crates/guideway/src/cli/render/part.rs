@@ -49,7 +49,13 @@ pub(super) fn read(
 }
 
 /// Returns `true` if a picture of some paths depends on the others: a note tells of levels over
-/// each other, and structure is gray where there are paths beside it.
+/// each other, and structure is gray where there are paths beside it. A table of paths says which
+/// levels there are by its paths, a network does by rows of their own.
 fn depends_on_all(layout: &Layout) -> bool {
-    !layout.levels.is_empty() || layout.paths.column("element").is_some()
+    let is_network = layout.provenance.format_version != "1";
+    let may_have_levels = match is_network {
+        true => layout.levels.len() > 1,
+        false => !layout.levels.is_empty(),
+    };
+    may_have_levels || layout.paths.column("element").is_some()
 }
