@@ -255,8 +255,8 @@ def open(
 ) -> Layout:
     """Reads a layout of any format; the content decides which.
 
-    `area` is a box (min_x, min_y, max_x, max_y) in meters: of an Arrow file of paths, only the
-    record batches that may have points in it are read.
+    `area` is a box (min_x, min_y, max_x, max_y) in meters: of an Arrow file, only the record
+    batches that may have points in it are read. Edges lose nodes that are elsewhere.
     """
 
 def check_many(

@@ -15,8 +15,8 @@ use crate::signals::Watch;
 ///
 /// `source` is a path, `bytes`, or a file that was opened for reading bytes. `progress` is called
 /// with the finished share, from 0 to 1, a few times per second; Ctrl-C stops. `area` is a box
-/// `(min_x, min_y, max_x, max_y)` in meters: of an Arrow file that states its extents, only
-/// the record batches that may have points in it are read.
+/// `(min_x, min_y, max_x, max_y)` in meters: of an Arrow file that states its extents, only the
+/// record batches that may have points in it are read. Edges lose nodes that are elsewhere.
 #[pyfunction]
 #[pyo3(signature = (source, *, area = None, progress = None))]
 pub(crate) fn open(

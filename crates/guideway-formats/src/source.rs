@@ -18,9 +18,9 @@ pub struct ReadOptions<'a> {
     /// Observer of the progress, which may cancel the read.
     pub progress: Option<&'a dyn Progress>,
     /// Box in meters whose paths are wanted; `None` for all. A reader may leave out paths whose
-    /// control points all lie beyond it: that of Arrow files of paths skips the record batches
-    /// whose extents miss it. If it does, the counts of the provenance have the
-    /// [`BYTES_READ`](crate::BYTES_READ).
+    /// control points all lie beyond it: that of Arrow files skips the record batches whose extents
+    /// miss it, and references to the nodes in them. If it does, the counts of the provenance have
+    /// the [`BYTES_READ`](crate::BYTES_READ).
     pub area: Option<Bounds<f64>>,
 }
 

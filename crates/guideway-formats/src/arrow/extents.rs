@@ -166,8 +166,10 @@ pub(super) fn extents(text: &str, batches: usize) -> Option<Vec<Option<Extent>>>
             }
             extent => (<&[f64; 5]>::try_from(extent).ok()?, None),
         };
-        (left <= right && bottom <= top).then_some(Some(Extent {
-            rows: count(rows)? as usize,
+        let rows = count(rows)?;
+        let is_valid = begun.is_none_or(|begun| begun.iter().all(|&count| count <= rows));
+        (is_valid && left <= right && bottom <= top).then_some(Some(Extent {
+            rows: rows as usize,
             bounds: Bounds {
                 min: Point::new(left, bottom),
                 max: Point::new(right, top),

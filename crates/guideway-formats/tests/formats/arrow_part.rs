@@ -231,10 +231,20 @@ fn a_part_of_a_network_has_its_nodes_and_the_properties_per_type() {
     let count = |name| part.provenance.count(name).expect("a count") as f64;
     let share = count(BYTES_READ) / count(FILE_BYTES);
     assert!((0.2..0.35).contains(&share), "{share}");
+    // Counts that contradict the rows: all is read.
+    let text = b",16384,0]";
+    let at_text = file.windows(text.len()).position(|at| at == text).unwrap();
+    let mut damaged = file.clone();
+    damaged[at_text + 1] = b'9';
+    let near = Some([at as f64, at as f64 + 10.0]);
+    assert!(!is_part(&read(&damaged, near)));
+    // Wrong ones give wrong references at most.
+    damaged[at_text + 1..][..2].copy_from_slice(b"11");
+    assert_eq!(read(&damaged, near).paths.len(), BATCH);
     // A number beyond the table is still a fault, in a part too.
     let mut faulty = network(4 * BATCH);
     faulty.paths.set_nodes(at, Some(1_000_000), None);
-    let part = read(&bytes(&faulty), Some([at as f64, at as f64 + 10.0]));
+    let part = read(&bytes(&faulty), near);
     assert!(is_part(&part) && part.diagnostics.iter().count() == 1);
 }
 
