@@ -44,12 +44,10 @@ if TYPE_CHECKING:
 
     _Text = traitlets.TraitType[Optional[str], Optional[str]]
     _Number = traitlets.TraitType[Optional[float], Optional[float]]
-    _Point = traitlets.TraitType[Optional[tuple[float, float]], Optional[Sequence[float]]]
-    _Texts = traitlets.TraitType[list[str], Sequence[str]]
     _Switch = traitlets.TraitType[bool, bool]
 
 
-class Widget(anywidget.AnyWidget):
+class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
     """A layout in Jupyter: zoom, move, hover and click. The browser draws it, without a network.
 
     `source` is the layout. `color_by` and `level` are as in `Layout.render`, `center` (meters) and
@@ -74,7 +72,7 @@ class Widget(anywidget.AnyWidget):
 
     selected: _Text = _synced(traitlets.Unicode(None, allow_none=True))
     hovered: _Text = _synced(traitlets.Unicode(None, allow_none=True))
-    center: _Point = _synced(
+    center: traitlets.TraitType[Any, Any] = _synced(
         traitlets.Tuple(
             traitlets.Float(), traitlets.Float(), default_value=None, allow_none=True
         )
@@ -82,7 +80,7 @@ class Widget(anywidget.AnyWidget):
     scale: _Number = _synced(traitlets.Float(None, allow_none=True))
     color_by: _Text = _synced(traitlets.Unicode(None, allow_none=True))
     level: _Text = _synced(traitlets.Unicode(None, allow_none=True))
-    highlight: _Texts = _synced(traitlets.List(traitlets.Unicode()))
+    highlight: traitlets.TraitType[Any, Any] = _synced(traitlets.List(traitlets.Unicode()))
     site: _Switch = _synced(traitlets.Bool(False))
     dark: _Switch = _synced(traitlets.Bool(False))
     height: traitlets.TraitType[int, int] = _synced(traitlets.Int(480, min=1))
