@@ -19,6 +19,7 @@
 //! | `code`, `place`, `diagnostic`, `limits` | findings and limits of readers |
 //! | `user_error`, `near` | the error that the command and the window show, and names it suggests |
 //! | `merge` | joins layouts |
+//! | `row_visits` | visits the rows of a column that an edit names |
 //! | [`text_format`] | text for people of counts, lengths, names |
 //! | [`clock`] | the time, in a browser too |
 //! | `compare` | differences between two layouts |
@@ -64,6 +65,7 @@ mod property;
 mod quantity;
 mod reach;
 mod refused;
+mod row_visits;
 mod run_points;
 mod shown;
 mod source_file;
@@ -107,6 +109,7 @@ pub use place::{Origin, Place};
 pub use property::{ElementKind, PROPERTIES, Property, PropertyKind};
 pub use quantity::Quantity;
 pub use refused::{Refused, RefusedPath};
+pub use row_visits::{for_each_row, rows_ascend};
 pub use run_points::RunPoints;
 pub use shown::{is_hidden, shown_lines, shown_path, shown_text};
 pub use source_file::SourceFile;

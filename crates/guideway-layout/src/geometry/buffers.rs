@@ -27,6 +27,14 @@ impl Points {
         }
     }
 
+    /// Points at zero, in the same precision.
+    pub(super) fn zeros_like(&self, count: usize) -> Self {
+        match self {
+            Self::F64(_) => Self::F64(vec![Point::default(); count]),
+            Self::F32(_) => Self::F32(vec![Point::default(); count]),
+        }
+    }
+
     pub(super) fn heap_bytes(&self) -> usize {
         match self {
             Self::F64(p) => p.capacity() * size_of::<Point<f64>>(),

@@ -44,9 +44,15 @@ fn append<T: Real>(
     let of_row = |row| {
         let points = &points[points_of(row)];
         prefetch_ahead(points);
-        Bounds::of_slice(points).unwrap_or(empty())
+        hull_of(points)
     };
     boxes.par_extend(rows.into_par_iter().map(of_row));
+}
+
+/// Box of the points of a path.
+#[inline]
+pub(super) fn hull_of<T: Real>(points: &[Point<T>]) -> Bounds<T> {
+    Bounds::of_slice(points).unwrap_or(empty())
 }
 
 impl From<Vec<Bounds<f32>>> for Hulls {
@@ -80,6 +86,22 @@ impl Hulls {
         match points {
             Points::F64(points) => boxes(points, paths, points_of).into(),
             Points::F32(points) => boxes(points, paths, points_of).into(),
+        }
+    }
+
+    /// The boxes, if they are in `f64`.
+    pub(super) fn wide_mut(&mut self) -> Option<&mut [Bounds<f64>]> {
+        match &mut self.0 {
+            Boxes::F64(boxes) => Some(boxes),
+            Boxes::F32(_) => None,
+        }
+    }
+
+    /// The boxes, if they are in `f32`.
+    pub(super) fn narrow_mut(&mut self) -> Option<&mut [Bounds<f32>]> {
+        match &mut self.0 {
+            Boxes::F32(boxes) => Some(boxes),
+            Boxes::F64(_) => None,
         }
     }
 
@@ -123,6 +145,16 @@ impl Hulls {
             Boxes::F64(boxes) => meeting(boxes, queries),
             Boxes::F32(boxes) => meeting(boxes, queries),
         }
+    }
+
+    /// Box of many paths, in meters, by all threads; `None` if they have no points.
+    ///
+    /// # Panics
+    /// When a path is not below [`Self::len`].
+    pub fn of_rows(&self, paths: &[u32]) -> Option<Bounds<f64>> {
+        let chunks = paths.par_chunks(TASK_PATHS);
+        let boxes = chunks.filter_map(|paths| self.of(paths.iter().map(|&path| path as usize)));
+        boxes.reduce_with(Bounds::union)
     }
 
     /// Box of some paths, in meters; `None` if they have no points.

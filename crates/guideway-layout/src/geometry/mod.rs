@@ -5,7 +5,7 @@
 //! | `buffers` | holds control points as `f32` or `f64`, and finds ranges in lists of ends |
 //! | `hulls` | holds the bounding box of the control points of each path |
 //! | `store` | [`Geometry`]: holds runs and paths, reads them, appends paths |
-//! | `parts` | visits disjoint parts of a buffer by all threads |
+//! | `parts` | visits the points and hulls of some paths by all threads |
 //! | `transform` | maps control points; bounds the result and its rounding error |
 //! | `replace` | copies paths, and replaces their curves |
 

@@ -3,27 +3,42 @@
 use std::ops::Range;
 
 use guideway_spline::Point;
-use guideway_spline::mem::{CHUNK_LEN, prefetch_ahead};
 use rayon::prelude::*;
 
-use super::buffers::{Points, consecutive, elements_of, end_index};
-use super::parts::for_each_part;
+use super::buffers::{Points, elements_of, end_index};
 use super::store::Geometry;
 use crate::RunPoints;
-use crate::run_points::POINTS_PER_TASK;
 
 /// Pairs of consecutive paths that one task compares.
 const TASK_PAIRS: usize = 1 << 12;
 
 impl Geometry {
-    /// A copy of some paths, in the given order. Fastest for rows in order.
+    /// A copy of some paths, in the given order. All threads share the work.
     ///
     /// # Panics
     /// When a path is not below [`Self::path_count`].
     #[must_use]
     pub fn select(&self, paths: impl IntoIterator<Item = usize>) -> Self {
-        let mut selected = self.empty_like();
-        consecutive(paths).for_each(|rows| selected.append(self, rows));
+        let paths: Vec<usize> = paths.into_iter().collect();
+        let mut selected = Self {
+            path_ends: self.path_ends.as_ref().map(|_| Vec::new()),
+            ..Self::default()
+        };
+        let mut end = 0;
+        for &path in &paths {
+            let runs = self.runs_of(&(path..path + 1));
+            let lengths = runs.map(|run| self.points_of(&(run..run + 1)).len());
+            selected.run_ends.extend(lengths.map(|len| {
+                end += len;
+                end_index(end)
+            }));
+            if let Some(path_ends) = &mut selected.path_ends {
+                path_ends.push(selected.run_ends.len() as u32);
+            }
+        }
+        selected.points = self.points.zeros_like(end);
+        let all: Vec<u32> = (0..paths.len() as u32).collect();
+        selected.copy_points(&all, self, &|path| paths[path]);
         selected
     }
 
@@ -66,25 +81,18 @@ impl Geometry {
     /// Replaces the curve of `paths[i]` by curve `i` of `with`, in the precision of this geometry.
     /// If a path occurs twice, its last curve counts.
     ///
-    /// Cost: O(points of `paths`) if no run changes its length, fastest for rows in order;
+    /// Cost: O(points of `paths`) if no run changes its length, by all threads where rows ascend;
     /// otherwise O(points of all paths).
     ///
     /// # Panics
     /// When `with` has fewer curves than `paths` has elements, a path is not below
     /// [`Self::path_count`], or the result exceeds 2^32 control points.
     pub fn replace_all(&mut self, paths: &[u32], with: &Self) {
-        self.hulls.take();
-        let mut done = 0;
-        let pairs = consecutive(paths.iter().map(|&path| path as usize)).map(|rows| {
-            let from = done..done + rows.len();
-            done = from.end;
-            (rows, from)
-        });
-        let pairs: Vec<_> = pairs.collect();
-        let tasks = pairs.par_iter().with_min_len(TASK_PAIRS);
-        if tasks.all(|(rows, from)| self.has_run_lengths_of(rows, with, from)) {
-            return self.copy_points(&pairs, with);
+        let pairs = paths.par_iter().enumerate().with_min_len(TASK_PAIRS);
+        if pairs.all(|(from, &path)| self.has_run_lengths_of(path as usize, with, from)) {
+            return self.copy_points(paths, with, &|path| path);
         }
+        self.hulls.take();
         if let [path] = *paths {
             return self.splice(path as usize, with);
         }
@@ -103,33 +111,36 @@ impl Geometry {
         *self = all;
     }
 
-    /// Returns `true` if `paths` have the same numbers of runs and points as `others` of another
-    /// geometry.
-    fn has_run_lengths_of(&self, paths: &Range<usize>, with: &Self, others: &Range<usize>) -> bool {
-        let (own, other) = (self.runs_of(paths), with.runs_of(others));
-        let has_run_counts = match (&self.path_ends, &with.path_ends) {
-            (None, None) => paths.len() == others.len(),
-            _ => {
-                let runs = |geometry: &Self, path| geometry.runs_of(&(path..path + 1)).len();
-                let mut pairs = paths.clone().zip(others.clone());
-                paths.len() == others.len() && pairs.all(|(a, b)| runs(self, a) == runs(with, b))
-            }
-        };
-        has_run_counts && has_lengths_of((&self.run_ends, &own), (&with.run_ends, &other))
+    /// Returns `true` if a path has the same numbers of runs and points as one of another geometry.
+    fn has_run_lengths_of(&self, path: usize, with: &Self, other: usize) -> bool {
+        let own = self.runs_of(&(path..path + 1));
+        let others = with.runs_of(&(other..other + 1));
+        has_lengths_of((&self.run_ends, &own), (&with.run_ends, &others))
     }
 
-    /// Overwrites the points of paths by those of others, whose runs have the same lengths.
-    fn copy_points(&mut self, pairs: &[(Range<usize>, Range<usize>)], with: &Self) {
-        let parts = pairs.iter().map(|(paths, others)| {
-            let to = self.points_of(&self.runs_of(paths));
-            (to, with.points_of(&with.runs_of(others)))
-        });
-        let parts: Vec<_> = parts.collect();
-        match (&mut self.points, &with.points) {
-            (Points::F64(to), Points::F64(from)) => copy_parts(to, from, &parts, |p| p),
-            (Points::F32(to), Points::F32(from)) => copy_parts(to, from, &parts, |p| p),
-            (Points::F64(to), Points::F32(from)) => copy_parts(to, from, &parts, Point::to_f64),
-            (Points::F32(to), Points::F64(from)) => copy_parts(to, from, &parts, Point::to_f32),
+    /// Overwrites the points of `paths[i]` by those of curve `curve_of(i)` of `with`, whose runs
+    /// have the same lengths.
+    fn copy_points(
+        &mut self,
+        paths: &[u32],
+        with: &Self,
+        curve_of: &(impl Fn(usize) -> usize + Sync),
+    ) {
+        let from = |index: usize| {
+            let curve = curve_of(index);
+            with.points_of(&with.runs_of(&(curve..curve + 1)))
+        };
+        match &with.points {
+            Points::F64(points) => self.visit_paths(
+                paths,
+                &|to, index| copy(to, &points[from(index)], |p| p),
+                &|to, index| copy(to, &points[from(index)], Point::to_f32),
+            ),
+            Points::F32(points) => self.visit_paths(
+                paths,
+                &|to, index| copy(to, &points[from(index)], Point::to_f64),
+                &|to, index| copy(to, &points[from(index)], |p| p),
+            ),
         }
     }
 
@@ -169,35 +180,10 @@ impl Geometry {
     }
 }
 
-/// Copies converted points from parts of a slice to parts of another one.
-fn copy_parts<A: Copy + Sync, B: Send>(
-    to: &mut [B],
-    from: &[A],
-    parts: &[(Range<usize>, Range<usize>)],
-    convert: impl Fn(A) -> B + Sync,
-) {
-    for_each_part(to, parts, &|to, range| {
-        copy(to, &from[range.clone()], &convert);
-    });
-}
-
-/// Copies converted points to a slice of the same length, on all threads if there are many.
-fn copy<A: Copy + Sync, B: Send>(to: &mut [B], from: &[A], convert: impl Fn(A) -> B + Sync) {
-    let copy_chunks = |(to, from): (&mut [B], &[A])| {
-        for (to, from) in to.chunks_mut(CHUNK_LEN).zip(from.chunks(CHUNK_LEN)) {
-            prefetch_ahead(to);
-            prefetch_ahead(from);
-            let pairs = to.iter_mut().zip(from);
-            pairs.for_each(|(to, from)| *to = convert(*from));
-        }
-    };
-    if from.len() <= POINTS_PER_TASK {
-        copy_chunks((to, from));
-    } else {
-        let chunks = to.par_chunks_mut(POINTS_PER_TASK);
-        let pairs = chunks.zip(from.par_chunks(POINTS_PER_TASK));
-        pairs.for_each(copy_chunks);
-    }
+/// Copies converted points to a slice of the same length.
+fn copy<A: Copy, B>(to: &mut [B], from: &[A], convert: impl Fn(A) -> B) {
+    let pairs = to.iter_mut().zip(from);
+    pairs.for_each(|(to, from)| *to = convert(*from));
 }
 
 /// Returns `true` if consecutive groups of one list of ends have the same lengths as groups of

@@ -203,6 +203,11 @@ impl Geometry {
             .get_or_init(|| Hulls::new(&self.points, self.path_count(), points_of))
     }
 
+    /// The hulls, if no change has dropped them.
+    pub fn known_hulls(&self) -> Option<&Hulls> {
+        self.hulls.get()
+    }
+
     /// Prefetches the control points of a path that will be read soon.
     ///
     /// # Panics

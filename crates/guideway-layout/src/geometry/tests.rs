@@ -109,6 +109,33 @@ fn parallel_loops_equal_serial_ones() {
 }
 
 #[test]
+fn edits_keep_known_hulls_up_to_date() {
+    let narrow = points(0, 19).iter().map(|p| p.to_f32()).collect();
+    let narrow = Geometry::from_f32(narrow, vec![4, 9, 13, 19]).with_path_ends(vec![1, 3, 4]);
+    let other = Geometry::from_f64(points(100, 15), vec![5, 9, 15]).with_path_ends(vec![2, 3]);
+    for start in [three(), narrow] {
+        let of = |geometry: &Geometry, path: usize| geometry.hulls().of([path]);
+        let mut edited = start.clone();
+        let before = edited.hulls().clone();
+        edited.transform([0, 2], Affine::translation(Point::new(0.0, 7.0)));
+        assert!(edited.hulls.get().is_some());
+        edited.replace_all(&[1, 2], &other);
+        assert!(edited.hulls.get().is_some());
+        let mut fresh = edited.clone();
+        fresh.hulls.take();
+        for path in 0..3 {
+            assert_eq!(of(&edited, path), of(&fresh, path));
+            assert_ne!(of(&edited, path), before.of([path]));
+        }
+        assert_eq!(edited.hulls().of_rows(&[0, 2]), fresh.hulls().of([0, 2]));
+        // Another length.
+        edited.replace_all(&[0], &other.select([1]));
+        let hull = edited.hull_bounds([0]);
+        assert_eq!(of(&edited, 0), hull);
+    }
+}
+
+#[test]
 fn finds_the_first_path_without_curve_or_out_of_range() {
     let far = |number: f64| {
         let mut points = points(0, 40);

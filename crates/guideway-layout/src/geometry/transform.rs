@@ -1,31 +1,75 @@
 //! Affine maps of paths, in place; boxes and rounding errors of the result; the coordinate check.
 
-use guideway_spline::mem::{CHUNK_LEN, prefetch_ahead, prefetched_chunks};
+use guideway_spline::mem::prefetched_chunks;
 use guideway_spline::{Affine, Bounds, Point};
 use rayon::prelude::*;
 
-use super::buffers::{Points, consecutive};
-use super::parts::for_each_part;
+use super::buffers::{Points, elements_of};
+use super::hulls::Hulls;
+use super::parts::{PathPoints, for_each_path};
 use super::store::Geometry;
 use crate::RunPoints;
-use crate::run_points::POINTS_PER_TASK;
 
 impl Geometry {
-    /// Maps the curves of some paths, in the precision of the buffer. Fastest for rows in order.
+    /// Maps the curves of some paths, in the precision of the buffer. Keeps the hulls up to date if
+    /// they are known. All threads share the work where rows ascend.
     ///
     /// # Panics
     /// When a path is not below [`Self::path_count`].
     pub fn transform(&mut self, paths: impl IntoIterator<Item = usize>, by: Affine) {
-        self.hulls.take();
-        let parts = consecutive(paths).map(|rows| (self.points_of(&self.runs_of(&rows)), ()));
-        let parts: Vec<_> = parts.collect();
-        match &mut self.points {
-            Points::F64(points) => for_each_part(points, &parts, &|points, ()| {
-                map_points(points, |p| by.apply(p));
-            }),
-            Points::F32(points) => for_each_part(points, &parts, &|points, ()| {
-                map_points(points, |p| by.apply(p.to_f64()).to_f32());
-            }),
+        let paths: Vec<u32> = paths.into_iter().map(|path| path as u32).collect();
+        self.visit_paths(
+            &paths,
+            &|points, _| map_points(points, |p| by.apply(p)),
+            &|points, _| map_points(points, |p| by.apply(p.to_f64()).to_f32()),
+        );
+    }
+
+    /// Calls a function for the points of each path, of either precision, with the index of the
+    /// path in `paths`. Keeps known hulls up to date.
+    pub(super) fn visit_paths(
+        &mut self,
+        paths: &[u32],
+        visit_wide: &(impl Fn(&mut [Point<f64>], usize) + Sync),
+        visit_narrow: &(impl Fn(&mut [Point<f32>], usize) + Sync),
+    ) {
+        let (run_ends, path_ends) = (&self.run_ends, &self.path_ends);
+        let points_of = |path: usize| {
+            let runs = match path_ends {
+                None => path..path + 1,
+                Some(ends) => elements_of(ends, &(path..path + 1)),
+            };
+            elements_of(run_ends, &runs)
+        };
+        let hulls = self.hulls.get_mut();
+        let is_known = match &mut self.points {
+            Points::F64(points) => {
+                let hulls = hulls.and_then(Hulls::wide_mut);
+                let is_known = hulls.is_some();
+                let all = PathPoints {
+                    first_path: 0,
+                    first_point: 0,
+                    points,
+                    hulls,
+                };
+                for_each_path(all, paths, &points_of, visit_wide);
+                is_known
+            }
+            Points::F32(points) => {
+                let hulls = hulls.and_then(Hulls::narrow_mut);
+                let is_known = hulls.is_some();
+                let all = PathPoints {
+                    first_path: 0,
+                    first_point: 0,
+                    points,
+                    hulls,
+                };
+                for_each_path(all, paths, &points_of, visit_narrow);
+                is_known
+            }
+        };
+        if !is_known {
+            self.hulls.take();
         }
     }
 
@@ -91,17 +135,7 @@ impl Geometry {
     }
 }
 
-/// Replaces each point by its image, on all threads if there are many.
-fn map_points<T: Copy + Send>(points: &mut [T], map: impl Fn(T) -> T + Sync) {
-    let map_chunks = |points: &mut [T]| {
-        for chunk in points.chunks_mut(CHUNK_LEN) {
-            prefetch_ahead(chunk);
-            chunk.iter_mut().for_each(|p| *p = map(*p));
-        }
-    };
-    if points.len() <= POINTS_PER_TASK {
-        map_chunks(points);
-    } else {
-        points.par_chunks_mut(POINTS_PER_TASK).for_each(map_chunks);
-    }
+/// Replaces each point by its image.
+fn map_points<T: Copy>(points: &mut [T], map: impl Fn(T) -> T) {
+    points.iter_mut().for_each(|p| *p = map(*p));
 }

@@ -6,6 +6,7 @@ use guideway_spline::Affine;
 
 use super::table::{NONE, Paths};
 use crate::optional_column::{column_for, set};
+use crate::row_visits::for_each_row;
 use crate::{Direction, Geometry, OwnStyle, TypeEntries, WrittenCurve, WrittenCurves};
 
 impl Paths {
@@ -154,6 +155,26 @@ impl Paths {
     pub fn copy_rank(&mut self, from: usize, to: usize) {
         if let Some(ranks) = &mut self.rank {
             ranks[to] = ranks[from];
+        }
+    }
+
+    /// Sets the styles of paths, by all threads where their rows ascend: see
+    /// [`Self::set_own_style`]. If a path occurs twice, its last style counts.
+    ///
+    /// # Panics
+    /// When a path is not below [`Self::len`].
+    pub fn set_own_styles(&mut self, styles: &[(u32, OwnStyle)]) {
+        let (rows, row) = (self.len(), |style: &(u32, OwnStyle)| style.0);
+        let has_width = styles.iter().any(|(_, style)| style.width_m.is_some());
+        if let Some(column) = column_for(&mut self.width_m, rows, f32::NAN, has_width) {
+            for_each_row(column, styles, &row, &|width_m, (_, style)| {
+                *width_m = style.width_m.unwrap_or(f32::NAN);
+            });
+        }
+        let color = |style: &OwnStyle| style.color_rgba.unwrap_or(0);
+        let has_color = styles.iter().any(|(_, style)| color(style) != 0);
+        if let Some(column) = column_for(&mut self.color_rgba, rows, 0, has_color) {
+            for_each_row(column, styles, &row, &|to, (_, style)| *to = color(style));
         }
     }
 
