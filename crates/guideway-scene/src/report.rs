@@ -139,7 +139,7 @@ impl Report {
             method,
             total: scene.path_count() as u64,
             drawn,
-            culled: scene.draw_order().len() as u64 - drawn,
+            culled: scene.shown_count() as u64 - drawn,
             hidden: scene.hidden_count() as u64,
             refused: layout.refused.len() as u64,
             ..Self::default()

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{NewPath, OwnStyle};
+use guideway_layout::{NewPath, OwnStyle, for_each_row};
 
 use super::error::EditError;
 use super::operation::{Edit, Insertion};
 use crate::color::Rgba;
-use crate::scene::{Colors, PathState, Scene};
+use crate::scene::{Colors, PathState, Scene, own_color};
 
 impl Scene {
     /// Applies an edit. Copies the layout first if other owners share it.
@@ -104,14 +104,31 @@ impl Scene {
     }
 
     fn restyle(&mut self, styles: &[(u32, OwnStyle)]) {
-        let layout = Arc::make_mut(&mut self.layout);
-        for &(path, style) in styles {
-            layout.paths.set_own_style(path as usize, style);
-        }
-        if self.legend().is_none() {
-            for &(path, _) in styles {
-                self.set_color(path, self.own_color(path));
+        let row = |style: &(u32, OwnStyle)| style.0;
+        self.track_styles(styles, &row, |scene| {
+            Arc::make_mut(&mut scene.layout)
+                .paths
+                .set_own_styles(styles);
+            if scene.legend().is_none() {
+                scene.follow_own_colors(styles);
             }
+        });
+    }
+
+    /// Gives restyled paths their own colors.
+    fn follow_own_colors(&mut self, styles: &[(u32, OwnStyle)]) {
+        let rows = self.row_count();
+        let (layout, base) = (&self.layout, self.base);
+        let own = |path: u32| own_color(layout, base, path);
+        if let Colors::One(one) = self.colors {
+            if styles.iter().all(|&(path, _)| own(path) == one) {
+                return;
+            }
+            self.colors = Colors::Each(vec![one; rows]);
+        }
+        if let Colors::Each(colors) = &mut self.colors {
+            let row = |style: &(u32, OwnStyle)| style.0;
+            for_each_row(colors, styles, &row, &|to, &(path, _)| *to = own(path));
         }
     }
 
@@ -126,14 +143,6 @@ impl Scene {
             }
             Colors::Each(colors) => colors[path as usize] = color,
         }
-    }
-
-    fn set_states(&mut self, states: &[(u32, PathState)]) {
-        self.states.resize(self.row_count(), PathState::Shown);
-        for &(path, state) in states {
-            self.states[path as usize] = state;
-        }
-        self.rebuild_order();
     }
 
     fn insert(&mut self, paths: &[Insertion]) {
@@ -176,9 +185,6 @@ impl Scene {
             };
             self.set_color(row, color);
         }
-        if !self.states.is_empty() {
-            self.states.resize(rows, PathState::Shown);
-        }
-        self.rebuild_order();
+        self.show_new_rows(first as usize);
     }
 }

@@ -1,7 +1,8 @@
 //! Checks an edit against a scene before it is applied, so that a rejected edit changes nothing.
 
-use guideway_layout::Layout;
+use guideway_layout::{Layout, rows_ascend};
 use guideway_spline::{Bounds, Point};
+use rayon::prelude::*;
 
 use super::error::EditError;
 use super::operation::{Edit, Insertion};
@@ -11,14 +12,19 @@ use crate::scene::Scene;
 /// with a resolution of 1e-7 m in `f64`.
 pub(super) const MAX_COORDINATE_M: f64 = 1e9;
 
+/// Rows of a task.
+const TASK_ROWS: usize = 1 << 13;
+
 impl Edit {
     /// Accepts the edit or returns the reason for rejecting it.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), EditError> {
-        let rows = scene.row_count();
-        let is_unknown = |&path: &u32| path as usize >= rows;
-        let greatest = self.paths().max().filter(is_unknown);
-        if let Some(path) = greatest.and_then(|_| self.paths().find(is_unknown)) {
-            return Err(EditError::UnknownPath { path, rows });
+        match self {
+            Self::Transform { paths, .. } | Self::Reshape { paths, .. } => {
+                check_known(scene, paths, |path| *path)?;
+            }
+            Self::Restyle(styles) => check_known(scene, styles, |(path, _)| *path)?,
+            Self::SetStates(states) => check_known(scene, states, |(path, _)| *path)?,
+            Self::Insert(_) | Self::Tables(_) => {}
         }
         let geometry = scene.layout().paths.geometry();
         match self {
@@ -26,7 +32,7 @@ impl Edit {
                 check_rows(scene, paths)?;
                 // A map that keeps the corners of a box in bounds keeps all points inside it in
                 // bounds.
-                let hull = geometry.hull_bounds(paths.iter().map(|&path| path as usize));
+                let hull = hull_of(scene, paths);
                 let corners = hull.into_iter().flat_map(Bounds::corners);
                 if is_in_bounds(corners.map(|p| by.apply(p))) {
                     return Ok(());
@@ -85,14 +91,41 @@ impl Insertion {
     }
 }
 
-/// Accepts rows of paths that exist, each once.
-pub(super) fn check_rows(scene: &Scene, paths: &[u32]) -> Result<(), EditError> {
+/// Accepts rows of paths that exist, by all threads if there are many.
+fn check_known<I: Sync>(
+    scene: &Scene,
+    items: &[I],
+    path: impl Fn(&I) -> u32 + Sync,
+) -> Result<(), EditError> {
     let rows = scene.row_count();
     // Without an early exit the compiler vectorizes the comparison.
-    let greatest = paths.iter().copied().fold(0, u32::max);
-    if let Some(path) = (!paths.is_empty() && greatest as usize >= rows).then_some(greatest) {
-        return Err(EditError::UnknownPath { path, rows });
+    let is_known = |items: &[I]| {
+        let all = items
+            .iter()
+            .fold(0, |end, item| u64::from(path(item)).max(end));
+        items.is_empty() || all < rows as u64
+    };
+    if items.par_chunks(TASK_ROWS).all(is_known) {
+        return Ok(());
     }
+    let unknown = items.iter().map(&path).find(|path| *path as usize >= rows);
+    unknown.map_or(Ok(()), |path| Err(EditError::UnknownPath { path, rows }))
+}
+
+/// Box of the control points of paths, by all threads; `None` if they have no points.
+pub(super) fn hull_of(scene: &Scene, paths: &[u32]) -> Option<Bounds<f64>> {
+    let geometry = scene.layout().paths.geometry();
+    if let Some(hulls) = geometry.known_hulls() {
+        return hulls.of_rows(paths);
+    }
+    let tasks = paths.par_chunks(TASK_ROWS);
+    let of_task = |paths: &[u32]| geometry.hull_bounds(paths.iter().map(|&path| path as usize));
+    tasks.filter_map(of_task).reduce_with(Bounds::union)
+}
+
+/// Accepts rows of paths that exist, each once.
+pub(super) fn check_rows(scene: &Scene, paths: &[u32]) -> Result<(), EditError> {
+    check_known(scene, paths, |path| *path)?;
     match find_duplicate(paths) {
         Some(path) => Err(EditError::DuplicatePath { path }),
         None => Ok(()),
@@ -102,9 +135,7 @@ pub(super) fn check_rows(scene: &Scene, paths: &[u32]) -> Result<(), EditError> 
 /// A row that occurs more than once. Rows in ascending order, as selections have them, need no
 /// sort.
 fn find_duplicate(rows: &[u32]) -> Option<u32> {
-    // Without an early exit the compiler vectorizes the comparison.
-    let pairs = rows.array_windows();
-    if pairs.fold(true, |is_sorted, [a, b]| is_sorted & (a < b)) {
+    if rows_ascend(rows, &|row| *row) {
         return None;
     }
     let mut sorted = rows.to_vec();

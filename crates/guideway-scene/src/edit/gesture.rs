@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use guideway_spline::{Affine, Bounds};
 
-use super::check::{check_rows, is_in_bounds};
+use super::check::{check_rows, hull_of, is_in_bounds};
 use super::error::EditError;
 use super::operation::Edit;
 use crate::scene::Scene;
@@ -44,10 +44,9 @@ impl GesturePaths {
     /// When the scene has no such row, or a row occurs twice.
     pub fn begin(scene: &Scene, gesture: &Gesture) -> Result<Self, EditError> {
         check_rows(scene, &gesture.paths)?;
-        let rows = gesture.paths.iter().map(|&path| path as usize);
         Ok(Self {
             paths: Arc::clone(&gesture.paths),
-            hull: scene.hulls().of(rows),
+            hull: hull_of(scene, &gesture.paths),
         })
     }
 

@@ -3,13 +3,14 @@
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
-use guideway_layout::{Hulls, Layout, PathRef};
+use guideway_layout::{Hulls, Layout};
 use guideway_spline::Bounds;
-use rayon::prelude::*;
 
 use super::bounds::curve_bounds;
+use super::census::StyleCensus;
 use super::error::{NoOpaqueColor, SceneError};
 use super::level::visible_level;
+use super::states::{draw_order, states};
 use crate::color::Rgba;
 use crate::color_by::{self, ColorBy, Legend};
 use crate::ramp::NumberColors;
@@ -17,9 +18,6 @@ use crate::table::Table;
 
 /// Color of walls and doors: a contrast of 3:1 on white paper, and 5:1 on dark one.
 const STRUCTURE: Rgba = Rgba::opaque(144, 144, 144);
-
-/// Rows of a task.
-const TASK_ROWS: usize = 1 << 14;
 
 /// Colors and visible level of a scene.
 #[derive(Clone, Debug, Default)]
@@ -46,15 +44,19 @@ pub struct Scene {
     pub(crate) layout: Arc<Layout>,
     pub(crate) colors: Colors,
     /// Color of paths without a color of their own.
-    base: Rgba,
+    pub(crate) base: Rgba,
     /// State per row; empty while all paths are shown.
     pub(crate) states: Vec<PathState>,
-    removed_count: usize,
+    pub(super) removed_count: usize,
+    pub(super) shown_count: usize,
     /// Removed nodes and stations, by row; rows past the end exist.
     removed_places: [Vec<bool>; 2],
     /// The only visible level; `None` shows all.
     pub(crate) level: Option<u32>,
-    draw_order: Vec<u32>,
+    /// Computed on first use after a change.
+    pub(super) draw_order: OnceLock<Vec<u32>>,
+    /// Computed on first use, and kept up to date by edits of styles and states.
+    pub(super) census: OnceLock<StyleCensus>,
     /// Computed on first use after a change.
     bounds: OnceLock<Option<Bounds<f64>>>,
     legend: Option<Legend>,
@@ -152,9 +154,11 @@ impl Scene {
             base,
             states,
             removed_count: 0,
+            shown_count: draw_order.len(),
             removed_places: [Vec::new(), Vec::new()],
             level,
-            draw_order,
+            draw_order: draw_order.into(),
+            census: OnceLock::new(),
             bounds: OnceLock::new(),
             legend,
         })
@@ -188,9 +192,16 @@ impl Scene {
         }
     }
 
-    /// Rows of the shown paths, lowest draw rank first.
+    /// Rows of the shown paths, lowest draw rank first. Computed on first use after a change of
+    /// states, by all threads.
     pub fn draw_order(&self) -> &[u32] {
-        &self.draw_order
+        let order = || draw_order(&self.layout, &self.states);
+        self.draw_order.get_or_init(order)
+    }
+
+    /// Number of shown paths.
+    pub fn shown_count(&self) -> usize {
+        self.shown_count
     }
 
     /// Number of path rows, including removed paths.
@@ -205,7 +216,7 @@ impl Scene {
 
     /// Number of hidden paths.
     pub fn hidden_count(&self) -> usize {
-        self.row_count() - self.removed_count - self.draw_order.len()
+        self.row_count() - self.removed_count - self.shown_count
     }
 
     /// Visibility of a path, by row.
@@ -271,7 +282,7 @@ impl Scene {
             removed.truncate(count);
             removed.shrink_to_fit();
         }
-        self.rebuild_order();
+        self.rows_changed();
     }
 
     /// Color of a path, by row.
@@ -284,12 +295,22 @@ impl Scene {
 
     /// The color shared by all shown paths, if there is one; black without paths.
     pub fn common_color(&self) -> Option<Rgba> {
-        let first = self.draw_order.first();
-        let first = first.map_or(Rgba::BLACK, |&path| self.color(path));
-        let paths = self.draw_order.par_iter().with_min_len(TASK_ROWS);
-        let is_common =
-            matches!(self.colors, Colors::One(_)) || paths.all(|&path| self.color(path) == first);
-        is_common.then_some(first)
+        match &self.colors {
+            Colors::One(_) if self.shown_count == 0 => Some(Rgba::BLACK),
+            Colors::One(color) => Some(*color),
+            Colors::Each(_) => self.census().common_color(self.shown_count),
+        }
+    }
+
+    /// Greatest own width of the shown paths, in meters; `None` if none has its own.
+    pub fn widest_m(&self) -> Option<f32> {
+        self.layout.paths.width_m()?;
+        self.census().widest_m()
+    }
+
+    /// Returns `true` if all shown paths have one color, and none a width of its own.
+    pub fn is_plain(&self) -> bool {
+        self.common_color().is_some() && self.widest_m().is_none()
     }
 
     /// The opaque color shared by all shown paths; black without paths.
@@ -308,11 +329,13 @@ impl Scene {
     pub fn is_opaque(&self) -> bool {
         match &self.colors {
             Colors::One(color) => color.is_opaque(),
-            Colors::Each(colors) => {
-                let colors = colors.par_iter().with_min_len(TASK_ROWS);
-                colors.all(|c| c.is_opaque())
-            }
+            Colors::Each(_) => self.census().is_opaque(),
         }
+    }
+
+    /// Counts of styles. The first call after edits that leave it unknown looks at all paths.
+    fn census(&self) -> &StyleCensus {
+        self.census.get_or_init(|| StyleCensus::of(self))
     }
 
     /// The path's own width in meters, if it has one.
@@ -326,7 +349,7 @@ impl Scene {
     pub fn bounds(&self) -> Option<Bounds<f64>> {
         *self
             .bounds
-            .get_or_init(|| curve_bounds(&self.layout, self.hulls(), &self.draw_order))
+            .get_or_init(|| curve_bounds(&self.layout, self.hulls(), self.draw_order()))
     }
 
     /// Bounding box of the control points of each path. Computed on first use after curves change.
@@ -341,51 +364,19 @@ impl Scene {
 
     /// Color of a path when no column decides it.
     pub(crate) fn own_color(&self, path: u32) -> Rgba {
-        let own = self.layout.paths.own_style(path as usize).color_rgba;
-        own.map_or(self.base, Rgba::from_u32)
+        own_color(&self.layout, self.base, path)
     }
 
     /// Drops the cached bounds; call after curves change.
     pub(crate) fn invalidate_bounds(&mut self) {
         self.bounds = OnceLock::new();
     }
-
-    /// Rebuilds the draw order and counts; call after rows or states change.
-    pub(crate) fn rebuild_order(&mut self) {
-        let states = self.states.par_iter().with_min_len(TASK_ROWS);
-        let is_removed = |state: &&PathState| **state == PathState::Removed;
-        self.removed_count = states.filter(is_removed).count();
-        self.draw_order = draw_order(&self.layout, &self.states);
-        self.invalidate_bounds();
-    }
 }
 
-/// Initial state per row: hides the paths of all levels but `level`.
-fn states(layout: &Layout, level: Option<u32>) -> Vec<PathState> {
-    if level.is_none() {
-        return Vec::new();
-    }
-    let state = |path: PathRef<'_>| match path.level() == level {
-        true => PathState::Shown,
-        false => PathState::Hidden,
-    };
-    layout.paths.iter().map(state).collect()
-}
-
-fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
-    let rows = 0..layout.paths.len() as u32;
-    let mut order: Vec<u32> = match states.is_empty() {
-        true => rows.into_par_iter().collect(),
-        false => {
-            let tasks = rows.into_par_iter().with_min_len(TASK_ROWS);
-            let is_shown = |path: &u32| states[*path as usize] == PathState::Shown;
-            tasks.filter(is_shown).collect()
-        }
-    };
-    if let Some(rank) = layout.paths.rank() {
-        order.sort_by_key(|&path| rank[path as usize]);
-    }
-    order
+/// Color of a path when no column decides it.
+pub(crate) fn own_color(layout: &Layout, base: Rgba, path: u32) -> Rgba {
+    let own = layout.paths.own_style(path as usize).color_rgba;
+    own.map_or(base, Rgba::from_u32)
 }
 
 fn own_colors(layout: &Layout, base: Rgba) -> Colors {
