@@ -7,7 +7,7 @@
 //! | `kernel` | [`Source`], [`Kernel`], [`Bindings`]: compute pipelines |
 //! | `memory` | [`Memory`], [`DeviceBuffer`]: buffers charged to the memory budget of a method |
 //! | `runner`, `readback` | [`Runner`]: submits dispatches, times stages, reads buffers back |
-//! | `patch` | writes many small changes to a buffer in one submission |
+//! | `patch`, `patcher` | collects many small changes of a buffer; sends them in few submissions |
 //! | `error` | [`DeviceError`] |
 
 mod adapter;
@@ -17,6 +17,7 @@ mod kernel;
 mod memory;
 mod options;
 mod patch;
+mod patcher;
 mod readback;
 mod runner;
 
@@ -26,7 +27,8 @@ pub use gpu::Gpu;
 pub use kernel::{Bindings, Kernel, Source};
 pub use memory::{DeviceBuffer, Memory, Reservation};
 pub use options::GpuOptions;
-pub(crate) use patch::{Patch, Patcher};
+pub(crate) use patch::Patch;
+pub(crate) use patcher::{PatchTarget, Patcher, SET_BIT};
 pub use readback::READBACK_USAGE;
 pub use runner::{Dispatch, Runner};
 

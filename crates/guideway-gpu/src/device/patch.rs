@@ -1,28 +1,14 @@
-//! Patches of buffers: sends many small changes in one submission, and a kernel scatters them.
+//! Patches: many small changes of one buffer, and their batches.
 
-use std::borrow::Cow;
+use std::ops::Range;
 
-use guideway_scene::RenderError;
-use wgpu::BufferUsages;
-
-use super::error::DeviceError;
-use super::gpu::Gpu;
-use super::kernel::{Bindings, Kernel, Source};
-use super::memory::{DeviceBuffer, Memory};
-use super::runner::{Dispatch, Runner};
+use rayon::prelude::*;
 
 /// Most words per run: one thread copies a run.
 const MAX_RUN_WORDS: usize = 64;
 /// Most words and runs per submission.
-const BATCH_WORDS: usize = 1 << 20;
-const BATCH_RUNS: usize = 1 << 17;
-const THREADS: u32 = 64;
-
-const PATCH: Source = Source {
-    name: "patch",
-    wgsl: Cow::Borrowed(include_str!("patch.wgsl")),
-    bindings: &["batch", "runs", "words", "target_words"],
-};
+pub(super) const BATCH_WORDS: usize = 1 << 21;
+pub(super) const BATCH_RUNS: usize = 1 << 18;
 
 /// New values for parts of one buffer, in 32-bit words.
 #[derive(Default)]
@@ -31,16 +17,24 @@ pub(crate) struct Patch {
     words: Vec<u32>,
 }
 
-/// A run of adjacent words. WGSL: `Run` of `patch.wgsl`.
+/// A run of adjacent words. WGSL: three words of `entries` in `patch.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-struct Run {
+pub(super) struct Run {
     target_word: u32,
     source: u32,
     words: u32,
 }
 
 impl Patch {
+    /// A patch with room for `runs` runs of `words` words in all.
+    pub(crate) fn with_capacity(runs: usize, words: usize) -> Self {
+        Self {
+            runs: Vec::with_capacity(runs),
+            words: Vec::with_capacity(words),
+        }
+    }
+
     /// Sets the value at a word index of the buffer.
     pub(crate) fn set<T: bytemuck::NoUninit>(&mut self, first_word: usize, value: &T) {
         self.set_all(first_word, std::slice::from_ref(value));
@@ -99,110 +93,94 @@ impl Patch {
     }
 }
 
-/// Sends patches: the scatter kernel and its staging buffers.
-pub(crate) struct Patcher {
-    kernel: Kernel,
-    batch: DeviceBuffer,
-    runs: DeviceBuffer,
-    words: DeviceBuffer,
-}
-
-impl Patcher {
-    pub(crate) fn new(gpu: &Gpu, memory: &mut Memory) -> Result<Self, RenderError> {
-        let kernel = Kernel::new(gpu, &PATCH, &[("THREADS", f64::from(THREADS))]);
-        let what = "changes of the scene";
-        let staging = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-        Ok(Self {
-            kernel: kernel.map_err(|error| memory.device_error(&error))?,
-            batch: memory.zeros(what, 16, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
-            runs: memory.zeros(what, (BATCH_RUNS * size_of::<Run>()) as u64, staging)?,
-            words: memory.zeros(what, (BATCH_WORDS * size_of::<u32>()) as u64, staging)?,
-        })
-    }
-
-    /// Applies patches to a buffer, before the next submission, in as few batches as possible.
-    pub(crate) fn apply(
-        &self,
-        gpu: &Gpu,
-        runner: &Runner,
-        patches: &[&Patch],
-        target: &DeviceBuffer,
-    ) -> Result<(), DeviceError> {
-        let buffers = [&self.batch, &self.runs, &self.words, target];
-        let bindings = self.kernel.bind(gpu, &buffers)?;
-        let mut batch = Batch::default();
-        for patch in patches {
-            let mut runs = patch.runs.as_slice();
-            while !runs.is_empty() {
-                runs = batch.add(runs, &patch.words);
-                if !runs.is_empty() {
-                    self.send(runner, &bindings, std::mem::take(&mut batch))?;
-                }
-            }
-        }
-        self.send(runner, &bindings, batch)
-    }
-
-    fn send(&self, runner: &Runner, bindings: &Bindings, batch: Batch) -> Result<(), DeviceError> {
-        let what = "changes of the scene";
-        if batch.runs.is_empty() {
-            return Ok(());
-        }
-        let count = batch.runs.len() as u32;
-        runner.write(what, &self.batch, &[count, 0, 0, 0])?;
-        runner.write_at(what, &self.runs, 0, &batch.runs)?;
-        runner.write_at(what, &self.words, 0, &batch.words)?;
-        let dispatch = Dispatch {
-            kernel: &self.kernel,
-            bindings,
-            workgroups: count.div_ceil(THREADS),
-        };
-        runner.start(what, &[dispatch])
-    }
+/// Some runs of a patch, and their words.
+struct Piece<'a> {
+    patch: &'a Patch,
+    runs: Range<usize>,
+    words: Range<usize>,
 }
 
 /// Runs of one submission, and their words.
 #[derive(Default)]
-struct Batch {
-    runs: Vec<Run>,
-    words: Vec<u32>,
+pub(super) struct Batch<'a> {
+    pieces: Vec<Piece<'a>>,
+    runs: usize,
+    words: usize,
 }
 
-impl Batch {
-    /// Adds as many runs of a patch with these words as there is room for. Returns the others.
-    fn add<'a>(&mut self, runs: &'a [Run], words: &[u32]) -> &'a [Run] {
-        let Some(first) = runs.first() else {
-            return runs;
-        };
-        let end = |run: &Run| (run.source + run.words) as usize;
-        let start = first.source as usize;
-        let fits = |run: &&Run| end(run) - start <= BATCH_WORDS - self.words.len();
-        let room = BATCH_RUNS - self.runs.len();
-        let count = runs.iter().take(room).take_while(fits).count();
-        let (added, others) = runs.split_at(count);
-        let Some(last) = added.last() else {
-            return runs;
-        };
-        let moved = added.iter().map(|run| Run {
-            source: run.source - first.source + self.words.len() as u32,
-            ..*run
+impl<'a> Batch<'a> {
+    /// Batches of patches, as few as possible.
+    pub(super) fn of_all(patches: &[&'a Patch]) -> Vec<Self> {
+        let mut batches = vec![Self::default()];
+        for patch in patches {
+            let mut first = 0;
+            while first < patch.runs.len() {
+                if let Some(batch) = batches.last_mut() {
+                    first = batch.add(patch, first);
+                }
+                if first < patch.runs.len() {
+                    batches.push(Self::default());
+                }
+            }
+        }
+        batches.retain(|batch| batch.runs > 0);
+        batches
+    }
+
+    /// Adds as many runs of a patch, from `first` on, as there is room for. Returns the first of
+    /// the others.
+    fn add(&mut self, patch: &'a Patch, first: usize) -> usize {
+        let source = |run: usize| patch.runs.get(run).map(|run| run.source as usize);
+        let start = source(first).unwrap_or(patch.words.len());
+        let room = start + BATCH_WORDS - self.words;
+        let runs = &patch.runs[first..patch.runs.len().min(first + BATCH_RUNS - self.runs)];
+        let fits = |run: &Run| (run.source + run.words) as usize <= room;
+        let end = first + runs.partition_point(fits);
+        let words = start..source(end).unwrap_or(patch.words.len());
+        self.runs += end - first;
+        self.words += words.len();
+        self.pieces.push(Piece {
+            patch,
+            runs: first..end,
+            words,
         });
-        self.runs.extend(moved);
-        self.words.extend_from_slice(&words[start..end(last)]);
-        others
+        end
+    }
+
+    /// Number of runs and of words.
+    pub(super) fn len(&self) -> [usize; 2] {
+        [self.runs, self.words]
+    }
+
+    /// The runs of each piece, with their places among all words. All threads share the work.
+    pub(super) fn runs(&self) -> Vec<Vec<Run>> {
+        let mut first = 0;
+        let places = self.pieces.iter().map(|piece| {
+            first += piece.words.len();
+            first - piece.words.len()
+        });
+        let pieces: Vec<_> = self.pieces.iter().zip(places).collect();
+        let placed = pieces.into_par_iter().map(|(piece, place)| {
+            let runs = piece.patch.runs[piece.runs.clone()].iter();
+            let placed = runs.map(|run| Run {
+                source: run.source - piece.words.start as u32 + place as u32,
+                ..*run
+            });
+            placed.collect()
+        });
+        placed.collect()
+    }
+
+    /// The words of each piece.
+    pub(super) fn words(&self) -> impl Iterator<Item = &'a [u32]> {
+        let pieces = self.pieces.iter();
+        pieces.map(|piece| &piece.patch.words[piece.words.clone()])
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::reflection::{assert_bindings, assert_layout, members};
-
-    #[test]
-    fn shader_matches_the_rust_layout() {
-        assert_bindings(&PATCH);
-        assert_layout(&[&PATCH], "Run", &members!(Run: target_word, source, words));
-    }
 
     #[test]
     fn merges_adjacent_words_up_to_the_run_limit() {
@@ -220,25 +198,28 @@ mod tests {
 
     #[test]
     fn patches_share_a_batch_until_it_is_full() {
-        let patch = |words: std::ops::Range<usize>| {
+        let patch = |words: Range<usize>| {
             let mut patch = Patch::default();
             words.for_each(|word| patch.set(word, &(word as u32)));
             patch
         };
         let (small, large) = (patch(3..5), patch(0..BATCH_WORDS));
-        let mut batch = Batch::default();
-        assert!(batch.add(&small.runs, &small.words).is_empty());
-        let others = batch.add(&large.runs, &large.words);
+        let none = Patch::default();
+        let batches = Batch::of_all(&[&small, &none, &large]);
         // Two words of the last run have no room.
-        assert_eq!(others.len(), 1);
+        let lengths: Vec<_> = batches.iter().map(Batch::len).collect();
+        assert_eq!(lengths, [[1 << 15, BATCH_WORDS - 62], [1, 64]]);
+        let runs = batches[0].runs().concat();
         let second = Run {
             target_word: 0,
             source: 2,
             words: 64,
         };
-        assert_eq!(batch.runs[1], second);
-        let mut next = Batch::default();
-        assert!(next.add(others, &large.words).is_empty());
-        assert_eq!((next.runs[0].source, next.words.len()), (0, 64));
+        assert_eq!(runs[1], second);
+        assert_eq!(batches[1].runs().concat()[0].source, 0);
+        let words = batches.iter().flat_map(|batch| batch.words().flatten());
+        let expected = [3, 4].into_iter().chain(0..BATCH_WORDS as u32);
+        assert!(words.copied().eq(expected));
+        assert!(Batch::of_all(&[]).is_empty());
     }
 }

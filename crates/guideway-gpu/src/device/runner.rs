@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{Clock, RenderError, Stage, elapsed_ms};
+use rayon::prelude::*;
 use wgpu::BufferUsages;
 
 use super::error::DeviceError;
@@ -12,6 +13,8 @@ use super::kernel::{Bindings, Kernel};
 use super::memory::{DeviceBuffer, Memory};
 use super::readback::{PendingRead, READBACK_USAGE};
 
+/// Bytes that one task copies: some 10 microseconds of work.
+const COPY_BYTES: usize = 1 << 16;
 /// Most stages per submission.
 const MAX_STAGES: usize = 12;
 /// Bytes of two timestamps per stage: its begin and its end.
@@ -109,6 +112,37 @@ impl Runner {
         let bytes = bytemuck::cast_slice(values);
         self.gpu.checked(what, || {
             self.gpu.queue.write_buffer(buffer.raw(), offset, bytes);
+        })
+    }
+
+    /// Writes parts one behind the other to the start of a buffer, before the next submission.
+    /// Threads share the work.
+    ///
+    /// # Errors
+    /// Any error of the device.
+    pub(crate) fn write_parts(
+        &self,
+        what: &'static str,
+        buffer: &DeviceBuffer,
+        parts: &[&[u32]],
+    ) -> Result<(), DeviceError> {
+        let bytes = parts.iter().map(|part| size_of_val(*part) as u64).sum();
+        let Some(size) = wgpu::BufferSize::new(bytes) else {
+            return Ok(());
+        };
+        self.gpu.checked(what, || {
+            let queue = &self.gpu.queue;
+            let Some(mut view) = queue.write_buffer_with(buffer.raw(), 0, size) else {
+                return;
+            };
+            let joined = Joined::new(parts);
+            let (chunks, rest) = view.slice(..).into_chunks::<COPY_BYTES>();
+            let rest_first = bytes as usize - rest.len();
+            let chunks: Vec<_> = chunks.into_iter().zip((0..).step_by(COPY_BYTES)).collect();
+            chunks
+                .into_par_iter()
+                .for_each(|(chunk, first)| joined.copy(first, chunk.into()));
+            joined.copy(rest_first, rest);
         })
     }
 
@@ -276,6 +310,42 @@ impl Runner {
         match pending {
             Some(read) => read.finish(&self.gpu, take),
             None => Ok(()),
+        }
+    }
+}
+
+/// Parts one behind the other.
+struct Joined<'a> {
+    parts: &'a [&'a [u32]],
+    /// End of each part in bytes.
+    ends: Vec<usize>,
+}
+
+impl<'a> Joined<'a> {
+    fn new(parts: &'a [&'a [u32]]) -> Self {
+        let mut end = 0;
+        let ends = parts.iter().map(|part| {
+            end += size_of_val(*part);
+            end
+        });
+        Self {
+            ends: ends.collect(),
+            parts,
+        }
+    }
+
+    /// Fills memory with the bytes from `first` on.
+    fn copy(&self, first: usize, mut to: wgpu::WriteOnly<'_, [u8]>) {
+        let mut at = self.ends.partition_point(|end| *end <= first);
+        let (mut first, mut filled) = (first, 0);
+        while filled < to.len() {
+            let part: &[u8] = bytemuck::cast_slice(self.parts[at]);
+            let left = self.ends[at] - first;
+            let count = left.min(to.len() - filled);
+            let from = part.len() - left;
+            to.slice(filled..filled + count)
+                .copy_from_slice(&part[from..from + count]);
+            (first, filled, at) = (first + count, filled + count, at + 1);
         }
     }
 }

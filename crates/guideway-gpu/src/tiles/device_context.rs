@@ -6,7 +6,9 @@ use guideway_scene::{Budget, RenderError};
 
 use super::layouts::FrameCounters;
 use super::options::NAME;
-use crate::device::{DeviceBuffer, DeviceError, Gpu, Memory, READBACK_USAGE, Runner};
+use crate::device::{
+    DeviceBuffer, DeviceError, Gpu, Memory, PatchTarget, Patcher, READBACK_USAGE, Runner,
+};
 
 /// Device handles of one prepared scene.
 pub(crate) struct DeviceContext {
@@ -28,6 +30,25 @@ impl DeviceContext {
             runner,
             counters_readback,
         })
+    }
+
+    /// A patcher, created on first use, and a buffer as its target.
+    pub(crate) fn patch<'a>(
+        &'a mut self,
+        patcher: &'a mut Option<Patcher>,
+        buffer: &'a DeviceBuffer,
+    ) -> Result<(&'a mut Patcher, PatchTarget<'a>), RenderError> {
+        let patcher = match patcher {
+            Some(patcher) => patcher,
+            none => none.insert(Patcher::new(&self.gpu, &mut self.memory)?),
+        };
+        let target = PatchTarget {
+            gpu: &self.gpu,
+            memory: &mut self.memory,
+            runner: &self.runner,
+            buffer,
+        };
+        Ok((patcher, target))
     }
 
     /// Reads the counters of the last window back.

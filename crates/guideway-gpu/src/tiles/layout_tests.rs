@@ -151,6 +151,7 @@ fn shaders_declare_the_constants_of_this_side() {
         let source = shaders::flatten(format);
         for (name, flag) in [
             ("WHOLE_PATH", WHOLE_PATH),
+            ("HIDDEN_STROKE", HIDDEN_STROKE),
             ("PATH_START", PATH_START),
             ("PATH_END", PATH_END),
         ] {

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::constants::{MAX_SEGMENTS, SEGMENTS_BIT, WHOLE_PATH};
+use super::constants::{HIDDEN_STROKE, MAX_SEGMENTS, SEGMENTS_BIT, WHOLE_PATH};
 
 /// Parameters of a frame. WGSL: `Frame` of `shared/frame.wgsl`, which documents each field.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -138,7 +138,7 @@ impl Stroke {
         self.extent & 0xffff
     }
 
-    /// Returns `true` if the stroke has segments.
+    /// Returns `true` if the stroke has segments: its path is drawn unless it is hidden.
     pub(crate) fn is_drawn(self) -> bool {
         self.segments() > 0
     }
@@ -146,6 +146,15 @@ impl Stroke {
     /// Returns `true` if the stroke is a whole path.
     pub(crate) fn is_whole_path(self) -> bool {
         self.extent & WHOLE_PATH != 0
+    }
+
+    /// The stroke as the device has it.
+    pub(crate) fn flagged(self, is_hidden: bool) -> Self {
+        let flag = if is_hidden { HIDDEN_STROKE } else { 0 };
+        Self {
+            extent: self.extent | flag,
+            ..self
+        }
     }
 
     /// Number of control points, if the stroke has segments.

@@ -183,8 +183,7 @@ impl Prepared for PreparedTiles {
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
         self.recover()?;
-        let scene = Arc::clone(&self.scene.scene);
-        let context = FrameContext::new(view, style, &scene, self.scene.facts)?;
+        let context = FrameContext::new(view, style, self.scene.facts)?;
         let size = view.size();
         frame.resize(size);
         let mut counts = Vec::new();
@@ -244,8 +243,7 @@ impl Prepared for PreparedTiles {
         if style.shading != Shading::Color || self.scene.buffers.is_none() {
             return Ok(None);
         }
-        let scene = Arc::clone(&self.scene.scene);
-        let context = FrameContext::new(view, style, &scene, self.scene.facts)?;
+        let context = FrameContext::new(view, style, self.scene.facts)?;
         let paint = self.scene.facts.paint;
         self.prepare_target(&context, paint)?;
         let mut presenter = match self.presenter.take() {
@@ -330,8 +328,7 @@ impl Prepared for PreparedTiles {
             return Ok(Work::default());
         }
         let counting = self.shared.counting_kernels().map_err(device_error)?;
-        let scene = Arc::clone(&self.scene.scene);
-        let context = FrameContext::new(view, style, &scene, self.scene.facts)?;
+        let context = FrameContext::new(view, style, self.scene.facts)?;
         self.prepare_target(&context, paint)?;
         self.target.picture = None;
         self.target.drop_bindings();

@@ -1,6 +1,6 @@
 //! A view of a scene: checks its precision, and computes the parameters of its frames.
 
-use guideway_scene::{LineRule, RenderError, Scene, Style, View};
+use guideway_scene::{LineRule, RenderError, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use super::capacity::Capacity;
@@ -29,7 +29,6 @@ pub(crate) struct FrameContext<'a> {
     pub(crate) style: &'a Style,
     /// The LOD of its lines.
     pub(crate) lod: LineLod,
-    scene: &'a Scene,
     facts: SceneFacts,
 }
 
@@ -49,7 +48,6 @@ impl<'a> FrameContext<'a> {
     pub(crate) fn new(
         view: &'a View,
         style: &'a Style,
-        scene: &'a Scene,
         facts: SceneFacts,
     ) -> Result<Self, RenderError> {
         // With u = 2^-24, a coordinate up to X from its cluster's origin is rounded by at most u X
@@ -89,7 +87,6 @@ impl<'a> FrameContext<'a> {
             view,
             style,
             lod,
-            scene,
             facts,
         })
     }
@@ -180,8 +177,6 @@ impl<'a> FrameContext<'a> {
             // No path has its own width.
             _ => [0.0, -1.0],
         };
-        let color = self.scene.draw_order().first();
-        let color = color.map_or(0, |&path| device_color(self.scene.color(path)));
         let origin = lod.origin_px(self.view);
         let ratio = lod.px_per_view_px(self.view);
         let in_lod = |x_px: u32, y_px: u32| {
@@ -235,7 +230,7 @@ impl<'a> FrameContext<'a> {
             first_pixel_row: job.first_row * TILE_PX,
             line_capacity: capacity.lines,
             reference_capacity: capacity.references,
-            color,
+            color: self.facts.color,
             background: device_color(self.style.background),
             max_step_m: self.max_step_m(),
             has_ranks: u32::from(capacity.has_ranks),

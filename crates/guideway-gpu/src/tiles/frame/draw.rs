@@ -2,9 +2,10 @@
 //! pixels back.
 
 use std::ops::Range;
+use std::sync::atomic::Ordering::Relaxed;
 use std::time::Instant;
 
-use guideway_scene::{Cancel, RenderError, Stage, elapsed_ms};
+use guideway_scene::{Cancel, PathState, RenderError, Stage, elapsed_ms};
 
 use super::capacity::Capacity;
 use super::context::{FrameContext, WindowJob};
@@ -286,7 +287,9 @@ pub(crate) fn count_drawn_paths(
             };
             let clusters = buffers.cluster_list.iter().zip(&buffers.whole_paths);
             let visible = clusters.filter(|(cluster, _)| is_visible(cluster));
-            visible.map(|(_, &paths)| u64::from(paths)).sum()
+            visible
+                .map(|(_, paths)| u64::from(paths.load(Relaxed)))
+                .sum()
         }
         (None, _) => 0,
     };
@@ -298,7 +301,8 @@ pub(crate) fn count_drawn_paths(
             Some(gesture) => gesture.shown_hull(**path, hull),
             None => hull,
         };
-        hull.is_some_and(|hull| shown(hull).intersects(frame.visible_bounds_m(width_m)))
+        let is_shown = scene.scene.state(**path) == PathState::Shown;
+        is_shown && hull.is_some_and(|hull| shown(hull).intersects(frame.visible_bounds_m(width_m)))
     };
     let others = scene.multi_stroke_paths.iter().filter(is_visible);
     single_stroke_paths + others.count() as u64

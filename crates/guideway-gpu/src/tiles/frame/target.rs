@@ -1,6 +1,7 @@
 //! State that passes from one picture to the next: buffers, caches, and measures of earlier frames.
 
 use guideway_scene::{RenderError, View};
+use rayon::prelude::*;
 use wgpu::BufferUsages;
 
 use super::capacity::Capacity;
@@ -23,6 +24,8 @@ use crate::tiles::layouts::{Cluster, FrameCounters};
 use crate::tiles::list_limits::unsplit_limits;
 use guideway_scene::cluster::DirtyClusters;
 
+/// Clusters whose boxes one task joins: some 20 microseconds of work.
+const TASK_CLUSTERS: usize = 1 << 10;
 /// Bytes of `SplitLists` of `shared/split_lists.wgsl`.
 const SPLIT_LISTS_BYTES: u64 = {
     let samples = TILE_PX * TILE_PX * SAMPLE_ROWS * Samples::Fine.per_row() / u32::BITS;
@@ -226,11 +229,19 @@ impl TargetState {
 
     /// Marks clusters with changed curves in all caches.
     pub(crate) fn mark_dirty(&mut self, dirty: &DirtyClusters, clusters: &[Cluster]) {
-        let mut area = DirtyArea::default();
         if self.picture.is_some() {
-            dirty.iter().for_each(|index| area.add(&clusters[index]));
+            let dirty: Vec<usize> = dirty.iter().collect();
+            let areas = dirty.par_chunks(TASK_CLUSTERS).map(|dirty| {
+                let mut area = DirtyArea::default();
+                dirty.iter().for_each(|&index| area.add(&clusters[index]));
+                area
+            });
+            let join = |mut a: DirtyArea, b: DirtyArea| {
+                a.join(b);
+                a
+            };
+            self.mark_area(areas.reduce_with(join).unwrap_or_default());
         }
-        self.mark_area(area);
         self.cached_lines
             .take_if(|cached| !cached.mark_dirty(dirty, clusters.len()));
     }

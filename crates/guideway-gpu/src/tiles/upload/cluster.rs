@@ -2,6 +2,7 @@
 
 use guideway_spline::{Affine, Bounds, Point};
 
+use super::rewrite::LocalBox;
 use crate::tiles::layouts::{Cluster, PointFormat};
 
 /// Converts world coordinates to those of a cluster.
@@ -98,16 +99,29 @@ impl Cluster {
 
     /// Quantizes a point to two 16-bit multiples of the step.
     pub(crate) fn quantize(&self, local_m: [f32; 2]) -> u32 {
-        // The conversion saturates.
-        let [x, y] = local_m.map(|v| u32::from((v / self.step_m).round() as i16 as u16));
+        // Halves round away from zero. `f32::round` calls a function on most processors; here the
+        // conversion truncates and saturates.
+        let steps = local_m.map(|v| v / self.step_m);
+        let [x, y] = steps.map(|v| u32::from((v + 0.5_f32.copysign(v)) as i16 as u16));
         x | y << 16
     }
 
-    /// Grows the box to contain a point, quantized or not.
-    pub(crate) fn include(&mut self, [x, y]: [f32; 2]) {
+    /// Returns `true` if the box contains points, quantized or not.
+    pub(crate) fn includes(&self, points: LocalBox) -> bool {
         let off_m = self.step_m;
-        self.low_m = [self.low_m[0].min(x - off_m), self.low_m[1].min(y - off_m)];
-        self.high_m = [self.high_m[0].max(x + off_m), self.high_m[1].max(y + off_m)];
+        (0..2).all(|axis| {
+            self.low_m[axis] <= points.low_m[axis] - off_m
+                && self.high_m[axis] >= points.high_m[axis] + off_m
+        })
+    }
+
+    /// Grows the box to contain points, quantized or not.
+    pub(crate) fn include(&mut self, points: LocalBox) {
+        let off_m = self.step_m;
+        for axis in 0..2 {
+            self.low_m[axis] = self.low_m[axis].min(points.low_m[axis] - off_m);
+            self.high_m[axis] = self.high_m[axis].max(points.high_m[axis] + off_m);
+        }
     }
 
     /// Bounding box of its control points in world coordinates.

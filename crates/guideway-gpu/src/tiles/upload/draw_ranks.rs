@@ -41,6 +41,11 @@ impl DrawRanks {
         }
     }
 
+    /// Returns `true` if all rows have ranks.
+    pub(crate) fn have_all(&self, rows: &[u32]) -> bool {
+        matches!(self, Self::Rows) || rows.iter().all(|&row| self.rank(row).is_some())
+    }
+
     /// The row of a rank.
     pub(crate) fn row(&self, rank: u32) -> u32 {
         match self {

@@ -4,27 +4,26 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use guideway_layout::Layout;
-use guideway_scene::{Edit, PathState, RenderError};
+use guideway_scene::cluster::DirtyClusters;
+use guideway_scene::{Edit, PathState, RenderError, Scene};
 
-use super::bulk_edit::{self, EditedScene};
-use super::cluster::ClusterOrigin;
 use super::edit_patches::{EditPatches, Target};
 use super::pack::Packed;
 use super::path_parts::PathPart;
-use super::path_strokes::{PathStrokes, cluster_of, stroke_capacity};
+use super::path_strokes::{PathStrokes, cluster_of};
+use super::rewrite::Rewriter;
 use super::scene_buffers::SceneBuffers;
+use super::states::write_states;
 use super::style_changes::StyleChanges;
 use super::uploaded_scene::UploadedScene;
 use crate::tiles::device_context::DeviceContext;
-use crate::tiles::layouts::PointFormat;
-use guideway_scene::cluster::DirtyClusters;
+use crate::tiles::layouts::PathStyle;
 
 /// Unused points from which on the scene is packed again: this many, or a quarter of all points.
 const MAX_UNUSED_POINTS: usize = 1 << 16;
 
-/// Paths with new curves from which on the scene is packed again: this many, and this part of all
-/// strokes.
+/// Paths that leave the place of their strokes, from which on the scene is packed again: this many,
+/// and this part of all strokes.
 const MIN_PACKED_PATHS: usize = 1 << 16;
 const PACKED_PART: usize = 4;
 
@@ -59,43 +58,93 @@ pub(crate) fn apply(
 ) -> Result<SceneBufferEdit, RenderError> {
     let first_new = uploaded.scene.row_count() as u32;
     let scene = Arc::make_mut(&mut uploaded.scene);
+    let draws_all = scene.shown_count() == scene.row_count();
     scene.edit(edit).map_err(RenderError::Edit)?;
-    if matches!(edit, Edit::Tables(_)) {
-        return Ok(SceneBufferEdit::Applied(EditEffect::default()));
-    }
+    let rows = match changed_rows(edit, first_new, &uploaded.scene) {
+        Some(rows) => rows,
+        None => return Ok(SceneBufferEdit::Applied(EditEffect::default())),
+    };
     uploaded.is_incomplete = true;
-    let new_rows = first_new..uploaded.scene.row_count() as u32;
-    let rows: Vec<u32> = edit.paths().chain(new_rows).collect();
-    let are_new = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
     let mut effect = EditEffect::default();
-    if !are_new {
+    let plain_before = uploaded.facts.is_plain.then_some(uploaded.facts.color);
+    let moves = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
+    if !moves {
         let before = uploaded.facts.appearance();
         uploaded.facts.refresh_appearance(&uploaded.scene);
         effect.changes_appearance =
             matches!(edit, Edit::Restyle(_)) || uploaded.facts.appearance() != before;
     }
-    let has_ranks =
-        |buffers: &SceneBuffers| rows.iter().all(|&row| buffers.ranks.rank(row).is_some());
+    let has_ranks = |buffers: &SceneBuffers| buffers.ranks.have_all(&rows);
     if !uploaded.buffers.as_ref().is_some_and(has_ranks) {
         return Ok(SceneBufferEdit::NeedsUpload);
     }
-    let has_styles = |buffers: &SceneBuffers| {
-        let styles = buffers.style_count as usize;
-        styles > 1 && !uploaded.facts.is_plain && styles == buffers.ranks.count(&uploaded.scene)
-    };
-    // A state does not change a style, but may change whether all paths share one.
-    let keeps_styles = are_new
-        || matches!(edit, Edit::SetStates(_)) && uploaded.buffers.as_ref().is_some_and(has_styles);
-    if !keeps_styles {
-        write_styles(uploaded, device, &rows, &mut effect)?;
+    if !moves {
+        let plain_before = plain_before.filter(|_| draws_all);
+        complete_styles(uploaded, device, edit, plain_before, &mut effect)?;
     }
-    let is_written = matches!(edit, Edit::Restyle(_))
-        || write_curves(uploaded, device, (&rows, are_new), &mut effect)?;
+    let is_written = match edit {
+        Edit::Restyle(_) => {
+            write_styles(uploaded, device, &rows, &mut effect)?;
+            true
+        }
+        Edit::SetStates(_) => {
+            let missing = write_states(uploaded, device, &rows, &mut effect)?;
+            missing.is_empty() || write_curves(uploaded, device, &missing, &mut effect)?
+        }
+        Edit::Insert(_) => {
+            write_styles(uploaded, device, &rows, &mut effect)?;
+            write_curves(uploaded, device, &rows, &mut effect)?
+        }
+        _ => write_curves(uploaded, device, &rows, &mut effect)?,
+    };
     if !is_written {
         return Ok(SceneBufferEdit::NeedsUpload);
     }
     uploaded.is_incomplete = false;
     Ok(SceneBufferEdit::Applied(effect))
+}
+
+/// The rows whose picture an edit changes, new ones included; `None` of an edit that none shows.
+fn changed_rows<'a>(edit: &'a Edit, first_new: u32, scene: &Scene) -> Option<Cow<'a, [u32]>> {
+    Some(match edit {
+        Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => Cow::Borrowed(&**paths),
+        Edit::Restyle(_) | Edit::SetStates(_) => edit.paths().collect(),
+        Edit::Insert(_) => (first_new..scene.row_count() as u32).collect(),
+        Edit::Tables(_) => return None,
+    })
+}
+
+/// Makes room for the styles of all paths, if they look alike no longer. `plain_before` is the
+/// color that all paths had, hidden ones too.
+fn complete_styles(
+    uploaded: &mut UploadedScene,
+    device: &mut DeviceContext,
+    edit: &Edit,
+    plain_before: Option<u32>,
+    effect: &mut EditEffect,
+) -> Result<(), RenderError> {
+    let scene = &uploaded.scene;
+    let Some(buffers) = &mut uploaded.buffers else {
+        return Ok(());
+    };
+    // The styles of all paths stay when the paths look alike again: nothing reads them then.
+    let is_complete = buffers.style_count as usize == buffers.ranks.count(scene);
+    if is_complete || uploaded.facts.is_plain {
+        return Ok(());
+    }
+    effect.moved_bytes += match plain_before.filter(|_| matches!(edit, Edit::Restyle(_))) {
+        Some(color) => {
+            let style = PathStyle {
+                color,
+                width_m: -1.0,
+            };
+            buffers.fill_styles(device, &mut uploaded.patcher, scene, style)?
+        }
+        None => buffers.upload_styles(&device.gpu, &mut device.memory, scene)?,
+    };
+    uploaded.facts.styles = buffers.style_count;
+    effect.replaces_buffers = true;
+    Ok(())
 }
 
 /// Writes colors and widths of rows.
@@ -109,38 +158,36 @@ fn write_styles(
     let Some(buffers) = &mut uploaded.buffers else {
         return Ok(());
     };
-    let (count, of_all) = (buffers.style_count as usize, buffers.ranks.count(scene));
-    // The styles of all paths stay when the paths look alike again: nothing reads them then.
-    let uploads_all = count != of_all || of_all == 1;
-    if uploads_all {
-        effect.moved_bytes += buffers.upload_styles(&device.gpu, &mut device.memory, scene)?;
-        uploaded.facts.styles = buffers.style_count;
-        effect.replaces_buffers = true;
-    }
     let path_strokes = uploaded
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
-    let changed = StyleChanges::of_all(scene, buffers, path_strokes, rows);
+    let changes = StyleChanges::of(scene, buffers, path_strokes, rows);
+    let is_complete = buffers.style_count as usize == buffers.ranks.count(scene);
+    if is_complete && !changes.styles.is_empty() {
+        effect.moved_bytes += changes.bytes();
+        let StyleChanges {
+            ranks,
+            picks,
+            styles,
+            ..
+        } = &changes;
+        let (patcher, target) = device.patch(&mut uploaded.patcher, &buffers.styles)?;
+        patcher.set_values(target, ranks, picks, styles)?;
+    }
     let mut patches = EditPatches::default();
-    for changed in changed {
-        if !uploads_all {
-            patches.add_finished(Target::Styles, changed.patch);
-        }
-        for (cluster, width_m) in changed.wider {
-            let widest_m = &mut buffers.cluster_list[cluster].widest_m;
-            *widest_m = widest_m.max(width_m);
-            patches.clusters.add(cluster);
-        }
+    for (cluster, width_m) in changes.wider {
+        let widest_m = &mut buffers.cluster_list[cluster].widest_m;
+        *widest_m = widest_m.max(width_m);
+        patches.clusters.add(cluster);
     }
     send(uploaded, device, patches, Vec::new(), effect)
 }
 
-/// Writes curves of rows: new ones, or those that are shown or hidden. `false` if the scene had
-/// better be packed anew.
+/// Writes new curves of rows, hidden or not. `false` if the scene had better be packed anew.
 fn write_curves(
     uploaded: &mut UploadedScene,
     device: &mut DeviceContext,
-    (rows, are_new): (&[u32], bool),
+    rows: &[u32],
     effect: &mut EditEffect,
 ) -> Result<bool, RenderError> {
     let Some(buffers) = &mut uploaded.buffers else {
@@ -150,61 +197,55 @@ fn write_curves(
     let path_strokes = uploaded
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
-    let mut patches = EditPatches::default();
-    let most = MIN_PACKED_PATHS.max(buffers.stroke_list.len() / PACKED_PART);
-    if are_new && rows.len() >= most {
+    let rewriter = Rewriter {
+        scene,
+        buffers,
+        path_strokes,
+        packing: uploaded.packing,
+    };
+    let written = rewriter.run(rows);
+    let others: usize = written.iter().map(|task| task.others.len()).sum();
+    if others >= MIN_PACKED_PATHS.max(buffers.stroke_list.len() / PACKED_PART) {
         return Ok(false);
     }
-    let mut rows = Cow::Borrowed(rows);
-    if rows.len() >= bulk_edit::MIN_PATHS {
-        let (several, hidden) = (&uploaded.multi_stroke_paths, &uploaded.hidden_edits);
-        let edited = EditedScene {
-            scene,
-            path_strokes,
-            is_special: &|row| several.contains(&row) || hidden.contains(&row),
-            are_new,
-        };
-        rows = bulk_edit::rewrite(&edited, buffers, &rows, &mut patches).into();
-    }
+    let mut patches = EditPatches::default();
     let mut moved_parts = Vec::new();
     let mut parts = Vec::new();
-    let mut scratch = Vec::new();
-    for &row in rows.iter() {
-        parts.clear();
-        if scene.state(row) == PathState::Shown
-            && let Some(rank) = buffers.ranks.rank(row)
-        {
-            PathPart::of_path(scene.layout(), row, rank, &mut parts);
+    for task in written {
+        for (target, patch) in task.points {
+            patches.add_finished(target, patch);
         }
-        if parts.len() > 1 {
-            uploaded.multi_stroke_paths.insert(row);
-            uploaded.packing.sort(scene.layout(), &mut parts);
-        } else if !uploaded.multi_stroke_paths.is_empty() {
-            uploaded.multi_stroke_paths.remove(&row);
-        }
-        let strokes = path_strokes.strokes(row);
-        let layout = scene.layout();
-        let hidden_edits = &mut uploaded.hidden_edits;
-        if are_new && parts.is_empty() {
-            hidden_edits.insert(row);
-        }
-        let has_points = !parts.is_empty() && !hidden_edits.remove(&row);
-        if has_points && !are_new && parts.len() == strokes.len() {
-            show_again(buffers, &parts, strokes, &mut patches);
-            continue;
-        }
-        if fits_in_place(buffers, path_strokes, layout, &parts, strokes, &mut scratch) {
-            write_in_place(buffers, &parts, strokes, &scratch, &mut patches);
-            continue;
-        }
-        for &stroke in strokes {
-            let hidden = &mut buffers.stroke_list[stroke as usize];
-            hidden.extent = hidden.first_point();
+        for (stroke, new) in task.strokes {
+            buffers.stroke_list[stroke as usize] = new;
             patches.strokes.push(stroke);
-            patches.dirty.add(cluster_of(buffers, stroke));
         }
-        if !parts.is_empty() {
+        for (cluster, box_m) in task.grown {
+            buffers.cluster_list[cluster as usize].include(box_m);
+            patches.clusters.add(cluster as usize);
+        }
+        patches.dirty.join(&task.dirty);
+        for row in task.others {
+            for &stroke in path_strokes.strokes(row) {
+                let unused = &mut buffers.stroke_list[stroke as usize];
+                unused.extent = unused.first_point();
+                patches.strokes.push(stroke);
+                let cluster = cluster_of(buffers, stroke);
+                patches.dirty.add(cluster);
+                patches.recounted.add(cluster);
+            }
             path_strokes.remove(buffers, row);
+            parts.clear();
+            // A hidden path gets strokes when it is shown.
+            if scene.state(row) == PathState::Shown
+                && let Some(rank) = buffers.ranks.rank(row)
+            {
+                PathPart::of_path(scene.layout(), row, rank, &mut parts);
+            }
+            if parts.len() > 1 {
+                uploaded.multi_stroke_paths.insert(row);
+            } else if !uploaded.multi_stroke_paths.is_empty() {
+                uploaded.multi_stroke_paths.remove(&row);
+            }
             moved_parts.extend_from_slice(&parts);
         }
     }
@@ -245,9 +286,10 @@ fn send(
         for cluster in clusters..buffers.cluster_list.len() {
             patches.clusters.add(cluster);
             patches.dirty.add(cluster);
+            patches.recounted.add(cluster);
         }
     }
-    buffers.count_whole_paths(patches.dirty.iter());
+    buffers.count_whole_paths(patches.recounted.iter());
     for cluster in patches.clusters.iter() {
         let reach_m = f64::from(buffers.cluster_list[cluster].reach_m());
         uploaded.facts.reach_m = uploaded.facts.reach_m.max(reach_m);
@@ -262,99 +304,6 @@ fn send(
         uploaded.write_dispatches(device)?;
         effect.replaces_buffers = true;
     }
-    for cluster in patches.dirty.iter() {
-        effect.dirty.add(cluster);
-    }
+    effect.dirty.join(&patches.dirty);
     Ok(())
-}
-
-/// Returns `true` if new parts of a path fit in the place of its strokes. Fills `points_m` with
-/// their points.
-fn fits_in_place(
-    buffers: &SceneBuffers,
-    path_strokes: &PathStrokes,
-    layout: &Layout,
-    parts: &[PathPart],
-    strokes: &[u32],
-    points_m: &mut Vec<[f32; 2]>,
-) -> bool {
-    if parts.is_empty() || parts.len() != strokes.len() {
-        return false;
-    }
-    points_m.clear();
-    for (part, &stroke) in parts.iter().zip(strokes) {
-        let cluster = cluster_of(buffers, stroke);
-        let origin = ClusterOrigin::of(&buffers.cluster_list[cluster]);
-        let first = points_m.len();
-        points_m.extend(part.points(layout).map(|p| origin.local_m(p)));
-        let points = &points_m[first..];
-        let may_hold = points.iter().all(|&p| path_strokes.may_hold(cluster, p));
-        if !may_hold || stroke_capacity(buffers, stroke) as usize != points.len() {
-            return false;
-        }
-    }
-    true
-}
-
-/// Shows the strokes of a path whose points are still there.
-fn show_again(
-    buffers: &mut SceneBuffers,
-    parts: &[PathPart],
-    strokes: &[u32],
-    patches: &mut EditPatches,
-) {
-    for (part, &stroke) in parts.iter().zip(strokes) {
-        let hidden = &mut buffers.stroke_list[stroke as usize];
-        let shown = part.stroke(hidden.first_point());
-        if *hidden != shown {
-            *hidden = shown;
-            patches.strokes.push(stroke);
-            patches.dirty.add(cluster_of(buffers, stroke));
-        }
-    }
-}
-
-/// Writes new points in the place of the old ones.
-fn write_in_place(
-    buffers: &mut SceneBuffers,
-    parts: &[PathPart],
-    strokes: &[u32],
-    points_m: &[[f32; 2]],
-    patches: &mut EditPatches,
-) {
-    let mut rest = points_m;
-    for (part, &stroke) in parts.iter().zip(strokes) {
-        let cluster_index = cluster_of(buffers, stroke);
-        let index = cluster_index as u32;
-        let point_buffers = &buffers.point_buffers;
-        let buffer_index = point_buffers.partition_point(|b| b.clusters.end <= index);
-        let cluster = &mut buffers.cluster_list[cluster_index];
-        let old = &mut buffers.stroke_list[stroke as usize];
-        let new = part.stroke(old.first_point());
-        if *old != new {
-            *old = new;
-            patches.strokes.push(stroke);
-        }
-        let (points, others) = rest.split_at(new.points() as usize);
-        rest = others;
-        points.iter().for_each(|p| cluster.include(*p));
-        let first_point = cluster.first_point + new.first_point();
-        let target = Target::Points(buffer_index);
-        match cluster.format() {
-            PointFormat::Rounded => {
-                let rounded = points.iter().map(|p| cluster.quantize(*p));
-                patches.set_points(target, first_point, rounded);
-            }
-            PointFormat::Exact => {
-                patches.set_points(target, first_point, points.iter().copied());
-            }
-        }
-        let exact = buffers.exact_points.as_ref();
-        if let Some(first) = exact.and_then(|exact| exact.first_point(index)) {
-            let first_point = first + new.first_point();
-            patches.set_points(Target::ExactPoints, first_point, points.iter().copied());
-        }
-        patches.clusters.add(cluster_index);
-        patches.dirty.add(cluster_index);
-    }
 }

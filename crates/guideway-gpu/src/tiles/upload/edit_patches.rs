@@ -6,7 +6,7 @@ use guideway_scene::RenderError;
 
 use super::scene_buffers::SceneBuffers;
 use crate::device::{DeviceBuffer, Patch, Patcher};
-use crate::tiles::device_context::{DeviceContext, device_error};
+use crate::tiles::device_context::DeviceContext;
 use crate::tiles::layouts::{Cluster, Stroke};
 use guideway_scene::cluster::DirtyClusters;
 
@@ -22,7 +22,6 @@ pub(crate) enum Target {
     ExactPoints,
     Strokes,
     Clusters,
-    Styles,
 }
 
 /// Changes of an edit.
@@ -35,6 +34,8 @@ pub(crate) struct EditPatches {
     pub(crate) clusters: DirtyClusters,
     /// Clusters with changed curves.
     pub(crate) dirty: DirtyClusters,
+    /// Clusters with strokes that have come or gone.
+    pub(crate) recounted: DirtyClusters,
     finished: BTreeMap<Target, Vec<Patch>>,
 }
 
@@ -70,8 +71,8 @@ impl EditPatches {
         let (mut strokes, mut clusters) = (Patch::default(), Patch::default());
         if !is_uploaded {
             for &stroke in &self.strokes {
-                let index = stroke as usize;
-                strokes.set(index * STROKE_WORDS, &buffers.stroke_list[index]);
+                let flagged = buffers.flagged_stroke(stroke);
+                strokes.set(stroke as usize * STROKE_WORDS, &flagged);
             }
             for cluster in self.clusters.iter() {
                 clusters.set(cluster * CLUSTER_WORDS, &buffers.cluster_list[cluster]);
@@ -89,14 +90,10 @@ impl EditPatches {
             patches.entry(*target).or_default().extend(finished);
         }
         let bytes = patches.values().flatten().map(|patch| patch.bytes()).sum();
-        let patcher = match patcher {
-            Some(patcher) => patcher,
-            none => none.insert(Patcher::new(&device.gpu, &mut device.memory)?),
-        };
         for (target, patches) in patches {
             if let Some(buffer) = target.buffer(buffers) {
-                let sent = patcher.apply(&device.gpu, &device.runner, &patches, buffer);
-                sent.map_err(device_error)?;
+                let (patcher, target) = device.patch(patcher, buffer)?;
+                patcher.apply(target, &patches)?;
             }
         }
         Ok(bytes)
@@ -110,7 +107,6 @@ impl Target {
             Self::ExactPoints => &buffers.exact_points.as_ref()?.buffer.points,
             Self::Strokes => &buffers.strokes,
             Self::Clusters => &buffers.clusters,
-            Self::Styles => &buffers.styles,
         })
     }
 }

@@ -1,12 +1,9 @@
 //! Properties of a scene that the host needs for every frame.
 
-use guideway_scene::Scene;
-use rayon::prelude::*;
+use guideway_scene::{Rgba, Scene};
 
+use super::pack::device_color;
 use crate::tiles::paint_mode::PaintMode;
-
-/// Paths of a task.
-const TASK_PATHS: usize = 1 << 14;
 
 /// Properties of a scene and of its buffers.
 #[derive(Clone, Copy)]
@@ -25,6 +22,8 @@ pub(crate) struct SceneFacts {
     pub(crate) widest_m: Option<f32>,
     /// True if all paths have one color, and none a width of its own.
     pub(crate) is_plain: bool,
+    /// The color of all paths, as in the device's pixels, if it is one.
+    pub(crate) color: u32,
     /// Paint mode of its tiles.
     pub(crate) paint: PaintMode,
 }
@@ -32,34 +31,27 @@ pub(crate) struct SceneFacts {
 impl SceneFacts {
     /// Facts of a scene without buffers.
     pub(crate) fn of(scene: &Scene) -> Self {
-        let drawn = scene.draw_order().par_iter().with_min_len(TASK_PATHS);
-        let widths = drawn.filter_map(|&path| scene.width_m(path));
         Self {
             clusters: 0,
             styles: 0,
             reach_m: 0.0,
             greatest_step_m: 0.0,
             map: [[1.0, 0.0], [0.0, 1.0]],
-            widest_m: widths.reduce_with(f32::max),
-            is_plain: is_plain(scene),
+            widest_m: scene.widest_m(),
+            is_plain: scene.is_plain(),
+            color: device_color(scene.common_color().unwrap_or(Rgba::BLACK)),
             paint: PaintMode::of(scene),
         }
     }
 
     /// The facts that affect every pixel of a picture.
-    pub(crate) fn appearance(&self) -> (PaintMode, bool, Option<f32>) {
-        (self.paint, self.is_plain, self.widest_m)
+    pub(crate) fn appearance(&self) -> (PaintMode, bool, Option<f32>, u32) {
+        (self.paint, self.is_plain, self.widest_m, self.color)
     }
 
     /// Updates the facts that colors, widths and states of paths determine.
     pub(crate) fn refresh_appearance(&mut self, scene: &Scene) {
         let facts = Self::of(scene);
-        (self.paint, self.is_plain, self.widest_m) = facts.appearance();
+        (self.paint, self.is_plain, self.widest_m, self.color) = facts.appearance();
     }
-}
-
-/// Returns `true` if all paths have one color, and none a width of its own.
-pub(crate) fn is_plain(scene: &Scene) -> bool {
-    let paths = scene.draw_order().par_iter().with_min_len(TASK_PATHS);
-    scene.common_color().is_some() && paths.all(|&path| scene.width_m(path).is_none())
 }

@@ -21,7 +21,7 @@ use super::shown_gesture::ShownGesture;
 use super::uploaded_scene::UploadedScene;
 use crate::tiles::cache::picture_cache::DirtyArea;
 use crate::tiles::device_context::{DeviceContext, device_error};
-use crate::tiles::layouts::{Cluster, Stroke};
+use crate::tiles::layouts::Cluster;
 
 /// Paths of a gesture by the clusters that hold them.
 struct Selection {
@@ -35,31 +35,36 @@ struct Selection {
 
 impl Selection {
     fn of(buffers: &SceneBuffers, is_selected: &[bool]) -> Self {
-        let row = |stroke: &Stroke| buffers.ranks.row(stroke.rank) as usize;
-        let is_part = |stroke: &&Stroke| stroke.is_drawn() && is_selected[row(stroke)];
-        let mut is_split = vec![false; is_selected.len()];
-        let mut whole = Vec::new();
-        for (index, cluster) in buffers.cluster_list.iter().enumerate() {
-            let first = cluster.first_stroke as usize;
-            let strokes = &buffers.stroke_list[first..first + cluster.strokes as usize];
-            let drawn = strokes.iter().filter(|stroke| stroke.is_drawn()).count();
-            match strokes.iter().filter(is_part).count() {
-                0 => {}
-                parts if parts == drawn => whole.push(index),
-                _ => {
-                    let parts = strokes.iter().filter(is_part);
-                    parts.for_each(|stroke| is_split[row(stroke)] = true);
-                }
-            }
-        }
-        let marked = (0..).zip(&is_split).filter(|(_, is_split)| **is_split);
-        let split_paths: Vec<u32> = marked.map(|(path, _)| path).collect();
-        let is_split = |(_, stroke): &(u32, &Stroke)| stroke.is_drawn() && is_split[row(stroke)];
+        let row = |stroke: u32| buffers.ranks.row(buffers.stroke_list[stroke as usize].rank);
+        let is_part =
+            |stroke: &u32| buffers.is_drawn(*stroke) && is_selected[row(*stroke) as usize];
+        // The rows of the selected strokes of each cluster; `None` of a whole one.
+        let parts_of = |cluster: &Cluster| {
+            let strokes = cluster.first_stroke..cluster.first_stroke + cluster.strokes;
+            let drawn = strokes.clone().filter(|stroke| buffers.is_drawn(*stroke));
+            let drawn = drawn.count();
+            let parts: Vec<u32> = strokes.filter(is_part).map(row).collect();
+            (parts.len() < drawn || drawn == 0).then_some(parts)
+        };
+        let clusters = buffers.cluster_list.par_iter().with_min_len(TASK_CLUSTERS);
+        let parts: Vec<Option<Vec<u32>>> = clusters.map(parts_of).collect();
+        let whole = parts.iter().enumerate();
+        let whole = whole.filter(|(_, parts)| parts.is_none());
+        let whole = whole.map(|(index, _)| index).collect();
+        let mut split_paths: Vec<u32> = parts.into_iter().flatten().flatten().collect();
+        split_paths.par_sort_unstable();
+        split_paths.dedup();
+        let is_split = |stroke: &u32| {
+            buffers.is_drawn(*stroke) && split_paths.binary_search(&row(*stroke)).is_ok()
+        };
         let split_strokes = match split_paths.is_empty() {
             true => Vec::new(),
             false => {
-                let split = (0..).zip(&buffers.stroke_list).filter(is_split);
-                split.map(|(index, _)| index).collect()
+                let strokes = (0..buffers.stroke_list.len() as u32).into_par_iter();
+                strokes
+                    .with_min_len(TASK_STROKES)
+                    .filter(is_split)
+                    .collect()
             }
         };
         Self {
@@ -69,6 +74,10 @@ impl Selection {
         }
     }
 }
+
+/// Clusters and strokes that a task looks at: some 20 microseconds of work.
+const TASK_CLUSTERS: usize = 64;
+const TASK_STROKES: usize = 1 << 12;
 
 /// Begins a gesture: its clusters are ready to be mapped. After an error
 /// `UploadedScene::is_incomplete` is set if buffers have changed.

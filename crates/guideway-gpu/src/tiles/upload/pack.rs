@@ -151,16 +151,21 @@ impl Packed {
         };
         cluster.first_stroke = self.strokes.len() as u32;
         cluster.strokes = parts.len() as u32;
+        let mut points_m = Vec::new();
         for part in parts {
             let width_m = scene.width_m(part.path).unwrap_or(-1.0);
             cluster.widest_m = cluster.widest_m.max(width_m);
             let stroke = part.stroke(cluster.points);
             cluster.points += stroke.points();
             self.strokes.push(stroke);
-            let points = part.points(layout).map(|p| origin.local_m(p));
             match format {
-                PointFormat::Rounded => self.rounded.extend(points.map(|p| cluster.quantize(p))),
-                PointFormat::Exact => self.exact_m.extend(points),
+                PointFormat::Rounded => {
+                    points_m.clear();
+                    part.append_local(layout, origin, &mut points_m);
+                    let points = points_m.iter().map(|&p| cluster.quantize(p));
+                    self.rounded.extend(points);
+                }
+                PointFormat::Exact => part.append_local(layout, origin, &mut self.exact_m),
             }
         }
         self.clusters.push(cluster);

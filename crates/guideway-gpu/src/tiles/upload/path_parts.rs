@@ -1,9 +1,10 @@
 //! Cuts paths into parts of at most 32 segments, each of which becomes one stroke.
 
-use guideway_layout::Layout;
+use guideway_layout::{Layout, RunPoints};
 use guideway_scene::density::open_ends;
 use guideway_spline::Point;
 
+use super::cluster::ClusterOrigin;
 use crate::tiles::constants::{PATH_END, PATH_START, SEGMENTS_BIT, STROKE_SEGMENTS, WHOLE_PATH};
 use crate::tiles::layouts::Stroke;
 
@@ -57,6 +58,27 @@ impl PathPart {
         Stroke {
             extent: first_point | self.segments << SEGMENTS_BIT | self.flags,
             rank: self.rank,
+        }
+    }
+
+    /// Appends the control points relative to the origin of a cluster.
+    pub(crate) fn append_local(
+        &self,
+        layout: &Layout,
+        origin: ClusterOrigin,
+        points_m: &mut Vec<[f32; 2]>,
+    ) {
+        let mut runs = layout.paths.get(self.path as usize).runs();
+        let first = self.first_point as usize;
+        let points = first..first + self.segments as usize + 3;
+        match runs.nth(self.run as usize) {
+            Some(RunPoints::F64(run)) => {
+                points_m.extend(run[points].iter().map(|p| origin.local_m(*p)));
+            }
+            Some(RunPoints::F32(run)) => {
+                points_m.extend(run[points].iter().map(|p| origin.local_m(p.to_f64())));
+            }
+            None => {}
         }
     }
 

@@ -1,12 +1,18 @@
 //! Finds the strokes of a path on the device, for edits in place.
 
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use rayon::prelude::*;
 
 use super::pack::max_move_m;
 use super::scene_buffers::SceneBuffers;
 use crate::tiles::constants::CLUSTER_STROKES;
+use crate::tiles::layouts::Stroke;
 
 const NO_STROKE: u32 = u32::MAX;
+/// Strokes of a task.
+const TASK_STROKES: usize = 1 << 14;
 
 /// Strokes of each path, and the original boxes of the clusters.
 pub(crate) struct PathStrokes {
@@ -28,7 +34,19 @@ impl PathStrokes {
             original_boxes: Vec::new(),
             unused_points: 0,
         };
-        strokes.append(buffers, 0, 0, rows);
+        // Whole paths have one stroke each: tasks write different rows.
+        let single: Vec<AtomicU32> = (0..rows).map(|_| AtomicU32::new(NO_STROKE)).collect();
+        let all = buffers.stroke_list.par_iter().with_min_len(TASK_STROKES);
+        all.enumerate().for_each(|(index, stroke)| {
+            if stroke.is_whole_path() {
+                let row = buffers.ranks.row(stroke.rank);
+                single[row as usize].store(index as u32, Relaxed);
+            }
+        });
+        strokes.single = single.into_iter().map(AtomicU32::into_inner).collect();
+        let parts = (0..).zip(&buffers.stroke_list);
+        strokes.add(buffers, parts.filter(|(_, stroke)| !stroke.is_whole_path()));
+        strokes.add_boxes(buffers, 0);
         strokes
     }
 
@@ -41,7 +59,17 @@ impl PathStrokes {
         rows: usize,
     ) {
         self.single.resize(rows, NO_STROKE);
-        for (stroke, index) in buffers.stroke_list.iter().zip(0..).skip(first_stroke) {
+        let new = (0..).zip(&buffers.stroke_list).skip(first_stroke);
+        self.add(buffers, new);
+        self.add_boxes(buffers, first_cluster);
+    }
+
+    fn add<'a>(
+        &mut self,
+        buffers: &SceneBuffers,
+        strokes: impl Iterator<Item = (u32, &'a Stroke)>,
+    ) {
+        for (index, stroke) in strokes {
             let row = buffers.ranks.row(stroke.rank);
             let single = &mut self.single[row as usize];
             if *single == NO_STROKE {
@@ -51,6 +79,9 @@ impl PathStrokes {
                 several.push(index);
             }
         }
+    }
+
+    fn add_boxes(&mut self, buffers: &SceneBuffers, first_cluster: usize) {
         let clusters = buffers.cluster_list[first_cluster..].iter();
         let boxes = clusters.map(|c| [c.low_m, c.high_m]);
         self.original_boxes.extend(boxes);
@@ -65,12 +96,6 @@ impl PathStrokes {
                 _ => &[],
             },
         }
-    }
-
-    /// The stroke of a row that has exactly one.
-    pub(crate) fn only_stroke(&self, row: u32) -> Option<u32> {
-        let single = self.single.get(row as usize).copied();
-        single.filter(|&single| single != NO_STROKE && !self.several.contains_key(&row))
     }
 
     /// Removes the strokes of a row. Their points become unused.

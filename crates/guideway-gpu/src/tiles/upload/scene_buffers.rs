@@ -1,16 +1,19 @@
 //! The buffers of a scene, with host copies of strokes and clusters for edits.
 
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
 use guideway_scene::{RenderError, Rgba, Scene};
 use rayon::prelude::*;
 use wgpu::BufferUsages;
 
 use super::draw_ranks::DrawRanks;
 use super::exact_points::ExactPoints;
-use super::facts::is_plain;
+use super::hidden_strokes::HiddenStrokes;
 use super::pack::{Packed, device_color, path_style};
 use super::path_parts::PathPart;
 use super::point_buffer::{PointBuffer, ViewDistance, buffer_ranges};
-use crate::device::{DeviceBuffer, Gpu, Memory};
+use crate::device::{DeviceBuffer, Gpu, Memory, Patcher};
+use crate::tiles::device_context::DeviceContext;
 use crate::tiles::layouts::{Cluster, ClusterSlot, FrameCounters, PathStyle, PointFormat, Stroke};
 use crate::tiles::options::NAME;
 
@@ -35,8 +38,9 @@ pub(crate) struct SceneBuffers {
     pub(crate) counters: DeviceBuffer,
     pub(crate) stroke_list: Vec<Stroke>,
     pub(crate) cluster_list: Vec<Cluster>,
-    /// Number of strokes in each cluster that are whole paths.
-    pub(crate) whole_paths: Vec<u32>,
+    pub(crate) hidden: HiddenStrokes,
+    /// Number of shown strokes in each cluster that are whole paths.
+    pub(crate) whole_paths: Vec<AtomicU32>,
     pub(crate) style_count: u32,
     pub(crate) ranks: DrawRanks,
 }
@@ -68,12 +72,32 @@ impl SceneBuffers {
             counters: counters(memory, packed.clusters.len())?,
             stroke_list: packed.strokes,
             cluster_list: packed.clusters,
+            hidden: HiddenStrokes::default(),
             whole_paths: Vec::new(),
             style_count: style_list.len() as u32,
             ranks,
         };
         buffers.count_whole_paths(0..buffers.cluster_list.len());
         Ok(Some(buffers))
+    }
+
+    /// Gives all paths one style in new buffers. Returns the bytes sent.
+    pub(crate) fn fill_styles(
+        &mut self,
+        device: &mut DeviceContext,
+        patcher: &mut Option<Patcher>,
+        scene: &Scene,
+        style: PathStyle,
+    ) -> Result<u64, RenderError> {
+        let count = self.ranks.count(scene);
+        let bytes = (count * size_of::<PathStyle>()) as u64;
+        check_binding(&device.gpu, "the styles", bytes)?;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+        self.styles = device.memory.zeros("the styles", bytes, usage)?;
+        self.style_count = count as u32;
+        let (patcher, target) = device.patch(patcher, &self.styles)?;
+        patcher.fill(&target, count, &style)?;
+        Ok(size_of::<PathStyle>() as u64)
     }
 
     /// Uploads all styles anew. Returns their bytes.
@@ -157,23 +181,47 @@ impl SceneBuffers {
         self.point_buffers.iter().chain(exact)
     }
 
+    /// Counts a stroke that was shown or hidden.
+    pub(crate) fn count_shown(&self, cluster: usize, stroke: u32, is_hidden: bool) {
+        if self.stroke_list[stroke as usize].is_whole_path() {
+            let paths = &self.whole_paths[cluster];
+            match is_hidden {
+                true => paths.fetch_sub(1, Relaxed),
+                false => paths.fetch_add(1, Relaxed),
+            };
+        }
+    }
+
+    /// Returns `true` if a stroke has segments, and its path is not hidden.
+    pub(crate) fn is_drawn(&self, stroke: u32) -> bool {
+        self.stroke_list[stroke as usize].is_drawn() && !self.hidden.is_hidden(stroke)
+    }
+
+    /// A stroke as the device has it.
+    pub(crate) fn flagged_stroke(&self, stroke: u32) -> Stroke {
+        let is_hidden = self.hidden.is_hidden(stroke);
+        self.stroke_list[stroke as usize].flagged(is_hidden)
+    }
+
     /// Counts the whole paths of some clusters, after their strokes have changed.
     pub(crate) fn count_whole_paths(&mut self, clusters: impl Iterator<Item = usize>) {
-        self.whole_paths.resize(self.cluster_list.len(), 0);
+        let all = self.cluster_list.len();
+        self.whole_paths.resize_with(all, AtomicU32::default);
         let count = |index: usize| {
             let cluster = &self.cluster_list[index];
             let first = cluster.first_stroke as usize;
             let strokes = &self.stroke_list[first..first + cluster.strokes as usize];
-            strokes
-                .iter()
-                .filter(|stroke| stroke.is_whole_path())
-                .count() as u32
+            let is_counted = |(index, stroke): &(u32, &Stroke)| {
+                stroke.is_whole_path() && !self.hidden.is_hidden(*index)
+            };
+            let strokes = (cluster.first_stroke..).zip(strokes);
+            strokes.filter(is_counted).count() as u32
         };
         let clusters: Vec<usize> = clusters.collect();
         let counted = clusters.par_iter().with_min_len(TASK_CLUSTERS);
         let counts: Vec<u32> = counted.map(|&index| count(index)).collect();
         for (index, count) in clusters.into_iter().zip(counts) {
-            self.whole_paths[index] = count;
+            *self.whole_paths[index].get_mut() = count;
         }
     }
 
@@ -187,7 +235,9 @@ impl SceneBuffers {
             return Ok(false);
         }
         check_binding(gpu, "the strokes", strokes_bytes as u64)?;
-        self.strokes = upload_with_spare(memory, "the strokes", &self.stroke_list)?;
+        let strokes = 0..self.stroke_list.len() as u32;
+        let strokes: Vec<Stroke> = strokes.map(|stroke| self.flagged_stroke(stroke)).collect();
+        self.strokes = upload_with_spare(memory, "the strokes", &strokes)?;
         self.clusters = upload_with_spare(memory, "the clusters", &self.cluster_list)?;
         let capacity = self.clusters.bytes() as usize / size_of::<Cluster>();
         self.counters = counters(memory, capacity)?;
@@ -256,15 +306,16 @@ pub(crate) fn all_parts(scene: &Scene, ranks: &DrawRanks) -> Vec<PathPart> {
 
 /// The style of each rank; a single one if all paths look alike.
 fn style_list(scene: &Scene, ranks: &DrawRanks) -> Vec<PathStyle> {
-    if is_plain(scene) {
+    if scene.is_plain() {
         let color = scene.common_color().unwrap_or(Rgba::BLACK);
         return vec![PathStyle {
             color: device_color(color),
             width_m: -1.0,
         }];
     }
-    let all_ranks = 0..ranks.count(scene) as u32;
-    all_ranks
+    let all_ranks = (0..ranks.count(scene) as u32).into_par_iter();
+    let styles = all_ranks.with_min_len(TASK_PATHS);
+    styles
         .map(|rank| path_style(scene, ranks.row(rank)))
         .collect()
 }

@@ -22,10 +22,8 @@ pub(crate) struct UploadedScene {
     pub(crate) buffers: Option<SceneBuffers>,
     pub(crate) facts: SceneFacts,
     pub(crate) packing: Packing,
-    /// Paths of several strokes: the device does not count them.
+    /// Paths of several strokes, shown or not: the device does not count them.
     pub(crate) multi_stroke_paths: BTreeSet<u32>,
-    /// Hidden paths whose curves have changed since the device got their points.
-    pub(crate) hidden_edits: BTreeSet<u32>,
     /// `None` until an edit or a near view needs it.
     pub(crate) path_strokes: Option<PathStrokes>,
     pub(crate) patcher: Option<Patcher>,
@@ -42,7 +40,6 @@ impl UploadedScene {
             facts: SceneFacts::of(&scene),
             packing: Packing::of(&scene),
             multi_stroke_paths: BTreeSet::new(),
-            hidden_edits: BTreeSet::new(),
             path_strokes: None,
             patcher: None,
             gesture: None,
@@ -60,7 +57,6 @@ impl UploadedScene {
         packing: Packing,
     ) -> Result<Vec<Stage>, RenderError> {
         (self.buffers, self.path_strokes, self.gesture) = (None, None, None);
-        self.hidden_edits.clear();
         self.packing = packing;
         self.is_incomplete = true;
         self.facts = SceneFacts::of(&self.scene);
