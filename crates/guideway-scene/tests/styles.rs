@@ -28,6 +28,7 @@ fn check(scene: &Scene) {
     let rows = 0..scene.row_count() as u32;
     let of = |state: PathState| rows.clone().filter(move |row| scene.state(*row) == state);
     let shown: Vec<u32> = of(PathState::Shown).collect();
+    assert!(scene.draws_by_rows());
     assert_eq!(scene.draw_order(), shown);
     assert_eq!(scene.shown_count(), shown.len());
     assert_eq!(scene.hidden_count(), of(PathState::Hidden).count());
@@ -36,8 +37,10 @@ fn check(scene: &Scene) {
     let first = shown.first().map_or(Rgba::BLACK, |&row| scene.color(row));
     let is_common = shown.iter().all(|&row| scene.color(row) == first);
     assert_eq!(scene.common_color(), is_common.then_some(first));
-    let widths = shown.iter().filter_map(|&row| scene.width_m(row));
-    let widest_m = widths.reduce(f32::max);
+    let widths = || shown.iter().filter_map(|&row| scene.width_m(row));
+    let widest_m = widths().reduce(f32::max);
+    let narrowest_m = widths().reduce(f32::min);
+    assert_eq!(scene.own_widths_m(), narrowest_m.zip(widest_m));
     assert_eq!(scene.widest_m(), widest_m);
     assert_eq!(scene.is_plain(), is_common && widest_m.is_none());
     let is_opaque = rows.clone().all(|row| scene.color(row).is_opaque());

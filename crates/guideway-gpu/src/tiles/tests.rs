@@ -18,6 +18,7 @@ use crate::device::{Gpu, kernels_beyond};
 use crate::testing::device_or_skip;
 use crate::{DeviceError, GpuOptions};
 
+mod bulk_edits;
 mod colors;
 mod edits;
 mod exact_points;

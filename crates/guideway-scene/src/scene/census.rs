@@ -4,7 +4,7 @@
 use guideway_layout::rows_ascend;
 use rayon::prelude::*;
 
-use super::model::{PathState, Scene};
+use super::model::{Colors, PathState, Scene};
 use crate::color::Rgba;
 
 /// Rows of a task.
@@ -18,6 +18,9 @@ pub(crate) struct StyleCensus {
     counts: StyleCounts,
 }
 
+/// The least or greatest width, in meters, and the number of shown paths that have it.
+type Extreme = Option<(f32, usize)>;
+
 /// Counts of the styles of some paths.
 #[derive(Clone, Copy, Debug, Default)]
 struct StyleCounts {
@@ -27,8 +30,9 @@ struct StyleCounts {
     alike: usize,
     /// Shown paths with a width of their own.
     own_widths: usize,
-    /// Greatest of these widths, in meters, and the number of shown paths that have it.
-    widest: Option<(f32, usize)>,
+    /// Least and greatest of these widths.
+    narrowest: Extreme,
+    widest: Extreme,
 }
 
 impl StyleCensus {
@@ -56,9 +60,12 @@ impl StyleCensus {
         }
     }
 
-    /// Greatest own width of the shown paths, in meters.
-    pub(super) fn widest_m(&self) -> Option<f32> {
-        self.counts.widest.map(|(width_m, _)| width_m)
+    /// Least and greatest own width of the shown paths, in meters.
+    pub(super) fn own_widths_m(&self) -> Option<(f32, f32)> {
+        let StyleCounts {
+            narrowest, widest, ..
+        } = self.counts;
+        Some((narrowest?.0, widest?.0))
     }
 
     /// Returns `true` if no path is translucent.
@@ -68,23 +75,21 @@ impl StyleCensus {
 
     /// The census after some paths have changed. `None` if a look at all paths has to find it.
     fn after(&self, before: StyleCounts, after: StyleCounts) -> Option<Self> {
-        let mut rest = StyleCounts {
+        let rest = StyleCounts {
             translucent: self.counts.translucent - before.translucent,
             alike: self.counts.alike - before.alike,
             own_widths: self.counts.own_widths - before.own_widths,
-            widest: self.counts.widest,
+            narrowest: without(self.counts.narrowest, before.narrowest),
+            widest: without(self.counts.widest, before.widest),
         };
-        if let (Some((widest_m, count)), Some((before_m, changed))) =
-            (&mut rest.widest, before.widest)
-            && *widest_m == before_m
-        {
-            *count -= changed;
-        }
         let counts = rest.join(after);
-        let lacks_widest = counts.own_widths > 0 && counts.widest.is_none_or(|(_, n)| n == 0);
-        (counts.alike > 0 && !lacks_widest).then_some(Self {
+        let has_widths = counts.own_widths > 0;
+        let lacks = |width: Extreme| has_widths && width.is_none_or(|(_, paths)| paths == 0);
+        let is_known = counts.alike > 0 && !lacks(counts.narrowest) && !lacks(counts.widest);
+        is_known.then_some(Self {
             counts: StyleCounts {
-                widest: counts.widest.filter(|_| counts.own_widths > 0),
+                narrowest: counts.narrowest.filter(|_| has_widths),
+                widest: counts.widest.filter(|_| has_widths),
                 ..counts
             },
             ..*self
@@ -116,7 +121,9 @@ impl StyleCounts {
             self.alike += usize::from(own == color);
             if let Some(width_m) = scene.width_m(row) {
                 self.own_widths += 1;
-                self.widest = wider(self.widest, Some((width_m, 1)));
+                let own = Some((width_m, 1));
+                self.narrowest = extreme(self.narrowest, own, |a, b| a < b);
+                self.widest = extreme(self.widest, own, |a, b| a > b);
             }
         }
         self
@@ -127,27 +134,65 @@ impl StyleCounts {
             translucent: self.translucent + other.translucent,
             alike: self.alike + other.alike,
             own_widths: self.own_widths + other.own_widths,
-            widest: wider(self.widest, other.widest),
+            narrowest: extreme(self.narrowest, other.narrowest, |a, b| a < b),
+            widest: extreme(self.widest, other.widest, |a, b| a > b),
         }
     }
 }
 
-/// The greater of two widths, with the number of paths that have it.
-fn wider(a: Option<(f32, usize)>, b: Option<(f32, usize)>) -> Option<(f32, usize)> {
+/// The extreme of two, where `is_beyond` tells the greater one from the less.
+fn extreme(a: Extreme, b: Extreme, is_beyond: impl Fn(f32, f32) -> bool) -> Extreme {
     match (a, b) {
         (Some((a_m, n)), Some((b_m, m))) if a_m == b_m => Some((a_m, n + m)),
         (Some((a_m, _)), Some((b_m, _))) => {
-            if a_m > b_m {
-                a
-            } else {
-                b
-            }
+            let is_a = is_beyond(a_m, b_m);
+            if is_a { a } else { b }
         }
         (a, b) => a.or(b),
     }
 }
 
+/// An extreme without the paths that had it before; of none if these were all.
+fn without(all: Extreme, before: Extreme) -> Extreme {
+    let changed = before.filter(|(before_m, _)| all.is_some_and(|(all_m, _)| all_m == *before_m));
+    let changed = changed.map_or(0, |(_, paths)| paths);
+    all.map(|(width_m, paths)| (width_m, paths - changed))
+}
+
 impl Scene {
+    /// The color shared by all shown paths, if there is one; black without paths.
+    pub fn common_color(&self) -> Option<Rgba> {
+        match &self.colors {
+            Colors::One(_) if self.shown_count == 0 => Some(Rgba::BLACK),
+            Colors::One(color) => Some(*color),
+            Colors::Each(_) => self.census().common_color(self.shown_count),
+        }
+    }
+
+    /// Least and greatest own width of the shown paths, in meters; `None` if none has its own.
+    pub fn own_widths_m(&self) -> Option<(f32, f32)> {
+        self.layout.paths.width_m()?;
+        self.census().own_widths_m()
+    }
+
+    /// Greatest own width of the shown paths, in meters; `None` if none has its own.
+    pub fn widest_m(&self) -> Option<f32> {
+        self.own_widths_m().map(|(_, widest_m)| widest_m)
+    }
+
+    /// Returns `true` if all paths are opaque.
+    pub fn is_opaque(&self) -> bool {
+        match &self.colors {
+            Colors::One(color) => color.is_opaque(),
+            Colors::Each(_) => self.census().is_opaque(),
+        }
+    }
+
+    /// Counts of styles. The first call after edits that leave it unknown looks at all paths.
+    fn census(&self) -> &StyleCensus {
+        self.census.get_or_init(|| StyleCensus::of(self))
+    }
+
     /// Runs a change of the styles or states of some paths, and updates the census.
     pub(crate) fn track_styles<I: Sync>(
         &mut self,

@@ -293,26 +293,6 @@ impl Scene {
         }
     }
 
-    /// The color shared by all shown paths, if there is one; black without paths.
-    pub fn common_color(&self) -> Option<Rgba> {
-        match &self.colors {
-            Colors::One(_) if self.shown_count == 0 => Some(Rgba::BLACK),
-            Colors::One(color) => Some(*color),
-            Colors::Each(_) => self.census().common_color(self.shown_count),
-        }
-    }
-
-    /// Greatest own width of the shown paths, in meters; `None` if none has its own.
-    pub fn widest_m(&self) -> Option<f32> {
-        self.layout.paths.width_m()?;
-        self.census().widest_m()
-    }
-
-    /// Returns `true` if all shown paths have one color, and none a width of its own.
-    pub fn is_plain(&self) -> bool {
-        self.common_color().is_some() && self.widest_m().is_none()
-    }
-
     /// The opaque color shared by all shown paths; black without paths.
     ///
     /// # Errors
@@ -323,19 +303,6 @@ impl Scene {
             Some(color) if !color.is_opaque() => Err(NoOpaqueColor::Translucent),
             Some(color) => Ok(color),
         }
-    }
-
-    /// Returns `true` if all paths are opaque.
-    pub fn is_opaque(&self) -> bool {
-        match &self.colors {
-            Colors::One(color) => color.is_opaque(),
-            Colors::Each(_) => self.census().is_opaque(),
-        }
-    }
-
-    /// Counts of styles. The first call after edits that leave it unknown looks at all paths.
-    fn census(&self) -> &StyleCensus {
-        self.census.get_or_init(|| StyleCensus::of(self))
     }
 
     /// The path's own width in meters, if it has one.

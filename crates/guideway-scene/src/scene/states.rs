@@ -11,6 +11,17 @@ use super::model::{PathState, Scene};
 const TASK_ROWS: usize = 1 << 14;
 
 impl Scene {
+    /// Returns `true` if the paths are drawn in the order of their rows.
+    pub fn draws_by_rows(&self) -> bool {
+        let is_unknown = self.draw_order.get().is_none();
+        is_unknown && self.layout.paths.rank().is_none() || self.draw_order().is_sorted()
+    }
+
+    /// Returns `true` if all shown paths have one color, and none a width of its own.
+    pub fn is_plain(&self) -> bool {
+        self.common_color().is_some() && self.widest_m().is_none()
+    }
+
     /// Drops what depends on the rows, and counts states; call after rows change.
     pub(crate) fn rows_changed(&mut self) {
         let tasks = self.states.par_iter().with_min_len(TASK_ROWS);

@@ -34,17 +34,16 @@ pub(crate) struct StyleSummary {
 
 impl StyleSummary {
     pub(crate) fn of(scene: &Scene) -> Self {
-        let order = scene.draw_order();
-        let ranks = (!order.is_sorted()).then(|| {
+        let ranks = (!scene.draws_by_rows()).then(|| {
             let mut ranks = vec![0; scene.row_count()];
-            for (&path, rank) in order.iter().zip(0..) {
+            for (&path, rank) in scene.draw_order().iter().zip(0..) {
                 ranks[path as usize] = rank;
             }
             ranks
         });
         Self {
             ranks,
-            own_widths: own_widths(scene),
+            own_widths: scene.own_widths_m(),
             solid: scene.common_color().filter(|color| color.is_opaque()),
         }
     }
@@ -71,17 +70,6 @@ impl StyleSummary {
             inset_for_zoom: None,
         }
     }
-}
-
-/// Least and greatest own width of the drawn paths.
-fn own_widths(scene: &Scene) -> OwnWidths {
-    scene.layout().paths.width_m()?;
-    let own = scene
-        .draw_order()
-        .iter()
-        .filter_map(|&path| scene.width_m(path));
-    own.map(|width_m| (width_m, width_m))
-        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 impl PreparedClusters {

@@ -52,7 +52,7 @@ impl CachedLines {
     /// Marks clusters, of `clusters` in all. Returns `false` if all lines had better be flattened
     /// again.
     pub(crate) fn mark_dirty(&mut self, dirty: &DirtyClusters, clusters: usize) -> bool {
-        dirty.iter().for_each(|cluster| self.dirty.add(cluster));
+        self.dirty.join(dirty);
         self.dirty.len() as usize <= max_dirty(clusters)
     }
 

@@ -10,14 +10,14 @@ use super::*;
 use crate::tiles::upload::scene_buffers::SceneBuffers;
 
 /// A scene drawn with caches, and the same scene with the same history drawn without.
-struct Pair {
-    cached: PreparedTiles,
-    uncached: PreparedTiles,
+pub(super) struct Pair {
+    pub(super) cached: PreparedTiles,
+    pub(super) uncached: PreparedTiles,
     style: Style,
 }
 
 impl Pair {
-    fn new(tiles: &Tiles, scene: &Arc<Scene>, style: Style) -> Self {
+    pub(super) fn new(tiles: &Tiles, scene: &Arc<Scene>, style: Style) -> Self {
         let mut uncached = prepared(tiles, scene);
         uncached.target.reuses_frames = false;
         Self {
@@ -27,7 +27,7 @@ impl Pair {
         }
     }
 
-    fn edit(&mut self, edit: &Edit) {
+    pub(super) fn edit(&mut self, edit: &Edit) {
         for prepared in [&mut self.cached, &mut self.uncached] {
             prepared.edit(edit).unwrap();
         }
@@ -35,7 +35,7 @@ impl Pair {
 
     /// Draws both, asserts equal pictures, and returns the report of the one with caches.
     #[track_caller]
-    fn check(&mut self, view: &View) -> (Frame, Report) {
+    pub(super) fn check(&mut self, view: &View) -> (Frame, Report) {
         if let Some(buffers) = &mut self.cached.scene.buffers {
             let counts = |buffers: &SceneBuffers| -> Vec<u32> {
                 let counts = buffers.whole_paths.iter();
@@ -318,63 +318,4 @@ fn scrolls_an_edited_picture() {
         let worst = worst.map(|(a, b)| a.abs_diff(*b)).max();
         assert!(worst <= Some(8), "{worst:?} {edit:?}");
     }
-}
-
-#[test]
-fn paths_that_are_shown_again_upload_no_points() {
-    let Some(tiles) = tiles() else { return };
-    let scene = mixed(6400, 2.0);
-    let mut pair = Pair::new(&tiles, &scene, Style::default());
-    let paths: Arc<[u32]> = (0..6400).step_by(10).collect();
-    let states = |state| Edit::SetStates(paths.iter().map(|&path| (path, state)).collect());
-    let [hide, show] = [PathState::Removed, PathState::Shown].map(states);
-    let (before, _) = pair.check(&all());
-    let bytes = |pair: &mut Pair, edit: &Edit| match pair.cached.edit(edit).unwrap() {
-        EditOutcome::InPlace { moved_bytes } => {
-            pair.uncached.edit(edit).unwrap();
-            moved_bytes
-        }
-        EditOutcome::NotInPlace => panic!("not in place"),
-    };
-    // A stroke per path.
-    let most = 640 * 4;
-    assert!(bytes(&mut pair, &hide) <= most);
-    assert!(pair.check(&all()).0 != before);
-    assert!(bytes(&mut pair, &show) <= most);
-    assert!(pair.check(&all()).0 == before);
-    // Edited while they are hidden, they get their new points at once.
-    let moved = Edit::Transform {
-        paths: Arc::clone(&paths),
-        by: Affine::translation(Point::new(0.5, 0.0)),
-    };
-    bytes(&mut pair, &hide);
-    assert!(bytes(&mut pair, &moved) > most);
-    assert!(bytes(&mut pair, &show) <= most);
-    let (shown, _) = pair.check(&all());
-    let mut other = Pair::new(&tiles, &scene, Style::default());
-    other.edit(&moved);
-    assert!(other.check(&all()).0 == shown && shown != before);
-}
-
-#[test]
-fn edit_of_many_paths_equals_a_fresh_preparation_to_the_bit() {
-    let Some(tiles) = tiles() else { return };
-    let (scene, style) = (plain(70_000, 0.2), Style::default());
-    let mut edited = prepared(&tiles, &scene);
-    picture(&mut edited, &all(), &style);
-    let turn = Edit::Transform {
-        paths: (0..70_000).collect(),
-        by: Affine::rotation(0.4, Point::new(50.0, 30.0)),
-    };
-    let mut after = Scene::clone(&scene);
-    let undo = after.edit_with_undo(&turn, |_| {}).unwrap();
-    edited.edit(&turn).unwrap();
-    let mut fresh = prepared(&tiles, &Arc::new(after));
-    for view in [all(), view([50.0, 30.0], 40.0)] {
-        let (drawn, _) = picture(&mut edited, &view, &style);
-        assert!(drawn == picture(&mut fresh, &view, &style).0);
-    }
-    edited.edit(&undo).unwrap();
-    let (drawn, _) = picture(&mut edited, &all(), &style);
-    assert!(drawn == picture(&mut prepared(&tiles, &scene), &all(), &style).0);
 }
