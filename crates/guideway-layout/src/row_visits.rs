@@ -7,13 +7,17 @@ const TASK_ROWS: usize = 1 << 12;
 
 /// Returns `true` if rows ascend, each once.
 pub fn rows_ascend<I: Sync>(items: &[I], row: &(impl Fn(&I) -> u32 + Sync)) -> bool {
-    // Without an early exit the compiler vectorizes the comparison. Chunks overlap by an item.
-    let firsts = (0..items.len()).into_par_iter().step_by(TASK_ROWS);
-    firsts.all(|first| {
-        let chunk = &items[first..items.len().min(first + TASK_ROWS + 1)];
-        let pairs = chunk.array_windows();
+    // Without an early exit the compiler vectorizes the comparison.
+    let ascend = |items: &[I]| {
+        let pairs = items.array_windows();
         pairs.fold(true, |all, [a, b]| all & (row(a) < row(b)))
-    })
+    };
+    if items.len() <= TASK_ROWS {
+        return ascend(items);
+    }
+    // Chunks overlap by an item.
+    let firsts = (0..items.len()).into_par_iter().step_by(TASK_ROWS);
+    firsts.all(|first| ascend(&items[first..items.len().min(first + TASK_ROWS + 1)]))
 }
 
 /// Calls a function for the row of each item: by all threads if there are many and they ascend,
@@ -68,7 +72,7 @@ mod tests {
             for items in [items, backward] {
                 let mut column = vec![0; count as usize];
                 for_each_row(&mut column, &items, &|item| item.0, &|to, item| {
-                    *to = item.1
+                    *to = item.1;
                 });
                 let is_set = |(row, value): (u32, &u32)| match row % 3 {
                     0 => *value == row + 1,

@@ -152,8 +152,11 @@ impl Hulls {
     /// # Panics
     /// When a path is not below [`Self::len`].
     pub fn of_rows(&self, paths: &[u32]) -> Option<Bounds<f64>> {
-        let chunks = paths.par_chunks(TASK_PATHS);
-        let boxes = chunks.filter_map(|paths| self.of(paths.iter().map(|&path| path as usize)));
+        let of_task = |paths: &[u32]| self.of(paths.iter().map(|&path| path as usize));
+        if paths.len() <= TASK_PATHS {
+            return of_task(paths);
+        }
+        let boxes = paths.par_chunks(TASK_PATHS).filter_map(of_task);
         boxes.reduce_with(Bounds::union)
     }
 

@@ -6,6 +6,7 @@ use guideway_spline::mem::prefetch;
 use guideway_spline::{Bounds, Point, Real};
 
 use super::hulls::hull_of;
+use crate::row_visits::rows_ascend;
 
 /// Paths that one task visits: some 100 kB of points.
 const TASK_PATHS: usize = 1 << 10;
@@ -29,9 +30,7 @@ pub(super) fn for_each_path<T: Real>(
     points_of: &(impl Fn(usize) -> Range<usize> + Sync),
     visit: &(impl Fn(&mut [Point<T>], usize) + Sync),
 ) {
-    let ascend = paths
-        .array_windows()
-        .fold(true, |all, [a, b]| all & (a < b));
+    let ascend = paths.len() > TASK_PATHS && rows_ascend(paths, &|path| *path);
     let task_paths = if ascend { TASK_PATHS } else { usize::MAX };
     let visitor = Visitor {
         task_paths,

@@ -88,8 +88,16 @@ impl Geometry {
     /// When `with` has fewer curves than `paths` has elements, a path is not below
     /// [`Self::path_count`], or the result exceeds 2^32 control points.
     pub fn replace_all(&mut self, paths: &[u32], with: &Self) {
-        let pairs = paths.par_iter().enumerate().with_min_len(TASK_PAIRS);
-        if pairs.all(|(from, &path)| self.has_run_lengths_of(path as usize, with, from)) {
+        let fits =
+            |(from, &path): (usize, &u32)| self.has_run_lengths_of(path as usize, with, from);
+        let all_fit = match paths.len() {
+            0..=TASK_PAIRS => paths.iter().enumerate().all(fits),
+            _ => {
+                let pairs = paths.par_iter().enumerate();
+                pairs.with_min_len(TASK_PAIRS).all(fits)
+            }
+        };
+        if all_fit {
             return self.copy_points(paths, with, &|path| path);
         }
         self.hulls.take();

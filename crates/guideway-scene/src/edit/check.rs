@@ -105,7 +105,11 @@ fn check_known<I: Sync>(
             .fold(0, |end, item| u64::from(path(item)).max(end));
         items.is_empty() || all < rows as u64
     };
-    if items.par_chunks(TASK_ROWS).all(is_known) {
+    let are_known = match items.len() {
+        0..=TASK_ROWS => is_known(items),
+        _ => items.par_chunks(TASK_ROWS).all(is_known),
+    };
+    if are_known {
         return Ok(());
     }
     let unknown = items.iter().map(&path).find(|path| *path as usize >= rows);

@@ -105,12 +105,16 @@ impl StyleCounts {
         row: &(impl Fn(&I) -> u32 + Sync),
         color: Rgba,
     ) -> Self {
-        let tasks = items.par_chunks(TASK_ROWS).map(|items| {
+        let of_task = |items: &[I]| {
             let rows = items.iter().map(row);
             rows.fold(Self::default(), |counts, row| {
                 counts.with(scene, row, color)
             })
-        });
+        };
+        if items.len() <= TASK_ROWS {
+            return of_task(items);
+        }
+        let tasks = items.par_chunks(TASK_ROWS).map(of_task);
         tasks.reduce(Self::default, Self::join)
     }
 

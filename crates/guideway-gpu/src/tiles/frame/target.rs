@@ -231,16 +231,23 @@ impl TargetState {
     pub(crate) fn mark_dirty(&mut self, dirty: &DirtyClusters, clusters: &[Cluster]) {
         if self.picture.is_some() {
             let dirty: Vec<usize> = dirty.iter().collect();
-            let areas = dirty.par_chunks(TASK_CLUSTERS).map(|dirty| {
+            let area_of = |dirty: &[usize]| {
                 let mut area = DirtyArea::default();
                 dirty.iter().for_each(|&index| area.add(&clusters[index]));
                 area
-            });
+            };
             let join = |mut a: DirtyArea, b: DirtyArea| {
                 a.join(b);
                 a
             };
-            self.mark_area(areas.reduce_with(join).unwrap_or_default());
+            let area = match dirty.len() {
+                0..=TASK_CLUSTERS => area_of(&dirty),
+                _ => {
+                    let areas = dirty.par_chunks(TASK_CLUSTERS).map(area_of);
+                    areas.reduce(DirtyArea::default, join)
+                }
+            };
+            self.mark_area(area);
         }
         self.cached_lines
             .take_if(|cached| !cached.mark_dirty(dirty, clusters.len()));
