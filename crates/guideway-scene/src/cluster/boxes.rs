@@ -9,6 +9,7 @@
 //! most rows (1.3 ms), and 94 ms to move a tenth of them (1.1 ms).
 
 use guideway_spline::{Bounds, Point};
+use rayon::prelude::*;
 
 use super::dirty::DirtyClusters;
 use super::order::{CLUSTER_LEN, ClusterOrder};
@@ -22,6 +23,9 @@ pub struct BoxIndex {
     /// Box of each cluster.
     clusters: Vec<Bounds<f64>>,
 }
+
+/// Clusters whose boxes one task joins.
+const TASK_CLUSTERS: usize = 256;
 
 /// The box of a row without one: it meets no other.
 const EMPTY: Bounds<f64> = Bounds {
@@ -59,10 +63,21 @@ impl BoxIndex {
             dirty.add(place / CLUSTER_LEN);
         }
         self.clusters.resize(self.order.cluster_count(), EMPTY);
-        for cluster in dirty.iter() {
+        let dirty: Vec<usize> = dirty.iter().collect();
+        let union_of = |&cluster: &usize| {
             let first = cluster * CLUSTER_LEN;
             let end = self.boxes.len().min(first + CLUSTER_LEN);
-            self.clusters[cluster] = union(&self.boxes[first..end]);
+            union(&self.boxes[first..end])
+        };
+        let unions: Vec<Bounds<f64>> = match dirty.len() {
+            0..=TASK_CLUSTERS => dirty.iter().map(union_of).collect(),
+            _ => {
+                let tasks = dirty.par_iter().with_min_len(TASK_CLUSTERS);
+                tasks.map(union_of).collect()
+            }
+        };
+        for (cluster, union) in dirty.into_iter().zip(unions) {
+            self.clusters[cluster] = union;
         }
     }
 
