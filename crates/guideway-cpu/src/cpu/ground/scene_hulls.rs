@@ -8,7 +8,7 @@ use guideway_spline::{Affine, Bounds};
 pub(crate) struct SceneHulls<'a>(pub(crate) &'a Scene);
 
 impl SceneHulls<'_> {
-    /// Hull of the shown paths, from the stored hull of each: fast, but only until a path changes.
+    /// Hull of the shown paths, from the stored hull of each, which are computed if unknown.
     pub(crate) fn stored_hull(&self, paths: &[u32]) -> MemberHull {
         self.0.hulls().of(self.shown(paths))
     }
@@ -22,12 +22,13 @@ impl SceneHulls<'_> {
 
 impl RowHulls for SceneHulls<'_> {
     fn hull(&self, paths: &[u32]) -> MemberHull {
+        let geometry = self.0.layout().paths.geometry();
+        // Edits keep known hulls up to date: a box is a fifth of the points of a usual path.
+        if let Some(hulls) = geometry.known_hulls() {
+            return hulls.of(self.shown(paths));
+        }
         prefetch_paths(self.0, self.shown(paths));
-        self.0
-            .layout()
-            .paths
-            .geometry()
-            .hull_bounds(self.shown(paths))
+        geometry.hull_bounds(self.shown(paths))
     }
 
     fn map_bounds(&self, bounds: Bounds<f64>, by: Affine) -> Bounds<f64> {
