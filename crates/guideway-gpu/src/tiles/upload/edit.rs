@@ -16,8 +16,9 @@ use super::scene_buffers::SceneBuffers;
 use super::states::write_states;
 use super::style_changes::StyleChanges;
 use super::uploaded_scene::UploadedScene;
+use crate::device::Patch;
 use crate::tiles::device_context::DeviceContext;
-use crate::tiles::layouts::PathStyle;
+use crate::tiles::layouts::{PathStyle, PointFormat};
 
 /// Unused points from which on the scene is packed again: this many, or a quarter of all points.
 const MAX_UNUSED_POINTS: usize = 1 << 16;
@@ -278,8 +279,10 @@ fn send(
         let index = buffers.append(&device.gpu, &mut device.memory, &packed)?;
         path_strokes.append(buffers, strokes, clusters, uploaded.scene.row_count());
         let first_point = buffers.cluster_list[clusters].first_point;
-        let points = packed.exact_m.into_iter();
-        patches.set_points(Target::Points(index), first_point, points);
+        let mut points = Patch::default();
+        let first_word = first_point as usize * PointFormat::Exact.words();
+        points.set_all(first_word, &packed.exact_m);
+        patches.add_finished(Target::Points(index), points);
         is_uploaded = buffers.grow(&device.gpu, &mut device.memory)?;
         let new_strokes = strokes as u32..buffers.stroke_list.len() as u32;
         patches.strokes.extend(new_strokes);

@@ -27,7 +27,6 @@ pub(crate) enum Target {
 /// Changes of an edit.
 #[derive(Default)]
 pub(crate) struct EditPatches {
-    points: BTreeMap<Target, Patch>,
     /// Changed strokes.
     pub(crate) strokes: Vec<u32>,
     /// Changed cluster entries.
@@ -40,20 +39,6 @@ pub(crate) struct EditPatches {
 }
 
 impl EditPatches {
-    /// Sets points of a buffer from index `first_point` on.
-    pub(crate) fn set_points<T: bytemuck::NoUninit>(
-        &mut self,
-        target: Target,
-        first_point: u32,
-        points: impl Iterator<Item = T>,
-    ) {
-        let patch = self.points.entry(target).or_default();
-        let words = size_of::<T>() / size_of::<u32>();
-        for (point, index) in points.zip(first_point as usize..) {
-            patch.set(index * words, &point);
-        }
-    }
-
     /// Adds a patch of a buffer that is complete.
     pub(crate) fn add_finished(&mut self, target: Target, patch: Patch) {
         self.finished.entry(target).or_default().push(patch);
@@ -80,10 +65,7 @@ impl EditPatches {
         }
         let lists = [(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
         let mut patches = BTreeMap::<_, Vec<&Patch>>::new();
-        for (target, patch) in lists
-            .into_iter()
-            .chain(self.points.iter().map(|(t, p)| (*t, p)))
-        {
+        for (target, patch) in lists {
             patches.entry(target).or_default().push(patch);
         }
         for (target, finished) in &self.finished {

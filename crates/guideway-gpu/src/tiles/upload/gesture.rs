@@ -11,7 +11,7 @@ use guideway_spline::Affine;
 use rayon::prelude::*;
 
 use super::edit::EditEffect;
-use super::edit_patches::EditPatches;
+use super::edit_patches::{EditPatches, STROKE_WORDS};
 use super::pack::Packed;
 use super::path_parts::PathPart;
 use super::path_strokes::{PathStrokes, cluster_of};
@@ -19,7 +19,9 @@ use super::point_buffer::ViewDistance;
 use super::scene_buffers::SceneBuffers;
 use super::shown_gesture::ShownGesture;
 use super::uploaded_scene::UploadedScene;
+use crate::device::{Patcher, SET_BIT};
 use crate::tiles::cache::picture_cache::DirtyArea;
+use crate::tiles::constants::HIDDEN_STROKE;
 use crate::tiles::device_context::{DeviceContext, device_error};
 use crate::tiles::layouts::Cluster;
 
@@ -119,13 +121,11 @@ pub(crate) fn begin(
     buffers.append_apart(&device.gpu, &mut device.memory, packed)?;
     uploaded.is_incomplete = true;
     let mut patches = EditPatches::default();
-    let mut hidden = Vec::with_capacity(selection.split_strokes.len());
-    for index in selection.split_strokes {
-        let stroke = &mut buffers.stroke_list[index as usize];
-        hidden.push((index, *stroke));
-        stroke.extent = stroke.first_point();
-        patches.strokes.push(index);
-        patches.dirty.add(cluster_of(buffers, index));
+    buffers.hidden.grow(strokes);
+    let hidden = selection.split_strokes;
+    for &stroke in &hidden {
+        buffers.hidden.set(stroke, true);
+        patches.dirty.add(cluster_of(buffers, stroke));
     }
     let own = clusters..buffers.cluster_list.len();
     buffers.count_whole_paths(patches.dirty.iter().chain(own.clone()));
@@ -158,6 +158,8 @@ pub(crate) fn begin(
         }
     }
     uploaded.facts.clusters = buffers.cluster_list.len() as u32;
+    let entries: Vec<u32> = shown.hidden.iter().map(|stroke| stroke | SET_BIT).collect();
+    effect.moved_bytes += flag_strokes(buffers, &mut uploaded.patcher, device, entries)?;
     let is_uploaded = effect.loses_lines;
     effect.moved_bytes += patches.send(buffers, &mut uploaded.patcher, device, is_uploaded)?;
     if effect.replaces_buffers {
@@ -263,23 +265,35 @@ pub(crate) fn end(
     buffers.cluster_list.truncate(gesture.clusters);
     buffers.stroke_list.truncate(gesture.strokes);
     buffers.point_buffers.truncate(gesture.point_buffers);
-    let mut patches = EditPatches::default();
-    for (index, stroke) in &gesture.hidden {
-        buffers.stroke_list[*index as usize] = *stroke;
-        patches.strokes.push(*index);
-        effect.dirty.add(cluster_of(buffers, *index));
+    for &stroke in &gesture.hidden {
+        buffers.hidden.set(stroke, false);
+        effect.dirty.add(cluster_of(buffers, stroke));
     }
     if has_own {
-        // They lack the points of hidden strokes.
+        // They have the points of other clusters, too.
         buffers.exact_points = None;
     }
     buffers.count_whole_paths(effect.dirty.iter());
-    effect.moved_bytes += patches.send(buffers, &mut uploaded.patcher, device, false)?;
+    let patcher = &mut uploaded.patcher;
+    effect.moved_bytes += flag_strokes(buffers, patcher, device, gesture.hidden.clone())?;
     let range = gesture.mapped_range();
     let range = range.start..range.end.min(gesture.clusters);
     effect.moved_bytes += write_clusters(uploaded, device, range)?;
     uploaded.is_incomplete = false;
     Ok(effect)
+}
+
+/// Hides or shows strokes on the device. Returns the bytes sent.
+fn flag_strokes(
+    buffers: &SceneBuffers,
+    patcher: &mut Option<Patcher>,
+    device: &mut DeviceContext,
+    entries: Vec<u32>,
+) -> Result<u64, RenderError> {
+    let bytes = size_of_val(entries.as_slice()) as u64;
+    let (patcher, target) = device.patch(patcher, &buffers.strokes)?;
+    patcher.set_bits(target, STROKE_WORDS, HIDDEN_STROKE, &[entries])?;
+    Ok(bytes)
 }
 
 /// Writes a range of clusters. Returns its bytes.

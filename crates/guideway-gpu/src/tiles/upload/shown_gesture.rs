@@ -7,7 +7,7 @@ use guideway_spline::{Affine, Bounds};
 
 use super::facts::SceneFacts;
 use crate::tiles::cache::picture_cache::DirtyArea;
-use crate::tiles::layouts::{Cluster, Stroke};
+use crate::tiles::layouts::Cluster;
 
 /// The gesture that the buffers of a scene show, and how they were before.
 pub(crate) struct ShownGesture {
@@ -19,7 +19,7 @@ pub(crate) struct ShownGesture {
     /// The area in which the mapped clusters are shown.
     pub(super) shown_area: DirtyArea,
     /// Strokes that are drawn from clusters of the gesture instead.
-    pub(super) hidden: Vec<(u32, Stroke)>,
+    pub(super) hidden: Vec<u32>,
     /// Number of clusters, strokes and point buffers of the scene.
     pub(super) clusters: usize,
     pub(super) strokes: usize,
