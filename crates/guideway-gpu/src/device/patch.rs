@@ -35,6 +35,12 @@ impl Patch {
         }
     }
 
+    /// Drops all values, and keeps the memory.
+    pub(crate) fn clear(&mut self) {
+        self.runs.clear();
+        self.words.clear();
+    }
+
     /// Sets the value at a word index of the buffer.
     pub(crate) fn set<T: bytemuck::NoUninit>(&mut self, first_word: usize, value: &T) {
         self.set_all(first_word, std::slice::from_ref(value));

@@ -11,7 +11,7 @@ use super::edit_patches::{EditPatches, Target};
 use super::pack::Packed;
 use super::path_parts::PathPart;
 use super::path_strokes::{PathStrokes, cluster_of};
-use super::rewrite::Rewriter;
+use super::rewrite::{Rewriter, send_points};
 use super::scene_buffers::SceneBuffers;
 use super::states::write_states;
 use super::style_changes::StyleChanges;
@@ -27,6 +27,9 @@ const MAX_UNUSED_POINTS: usize = 1 << 16;
 /// and this part of all strokes.
 const MIN_PACKED_PATHS: usize = 1 << 16;
 const PACKED_PART: usize = 4;
+
+/// Paths whose points go up at once: some megabytes.
+const BATCH_PATHS: usize = 1 << 17;
 
 /// Result of an edit.
 pub(crate) enum SceneBufferEdit {
@@ -198,24 +201,30 @@ fn write_curves(
     let path_strokes = uploaded
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
-    let rewriter = Rewriter {
-        scene,
-        buffers,
-        path_strokes,
-        packing: uploaded.packing,
-    };
-    let written = rewriter.run(rows);
-    let others: usize = written.iter().map(|task| task.others.len()).sum();
-    if others >= MIN_PACKED_PATHS.max(buffers.stroke_list.len() / PACKED_PART) {
-        return Ok(false);
+    let (mut written, mut others) = (Vec::new(), 0);
+    for rows in rows.chunks(BATCH_PATHS) {
+        let rewriter = Rewriter {
+            scene,
+            buffers,
+            path_strokes,
+            packing: uploaded.packing,
+            spare: &uploaded.spare_patches,
+        };
+        let mut tasks = rewriter.run(rows);
+        others += tasks.iter().map(|task| task.others.len()).sum::<usize>();
+        if others >= MIN_PACKED_PATHS.max(buffers.stroke_list.len() / PACKED_PART) {
+            return Ok(false);
+        }
+        // The device takes the points while the next ones are converted.
+        let patcher = &mut uploaded.patcher;
+        let spare = &uploaded.spare_patches;
+        effect.moved_bytes += send_points(&mut tasks, buffers, patcher, device, spare)?;
+        written.append(&mut tasks);
     }
     let mut patches = EditPatches::default();
     let mut moved_parts = Vec::new();
     let mut parts = Vec::new();
     for task in written {
-        for (target, patch) in task.points {
-            patches.add_finished(target, patch);
-        }
         for (stroke, new) in task.strokes {
             buffers.stroke_list[stroke as usize] = new;
             patches.strokes.push(stroke);

@@ -83,7 +83,7 @@ impl EditPatches {
 }
 
 impl Target {
-    fn buffer(self, buffers: &SceneBuffers) -> Option<&DeviceBuffer> {
+    pub(super) fn buffer(self, buffers: &SceneBuffers) -> Option<&DeviceBuffer> {
         Some(match self {
             Self::Points(index) => &buffers.point_buffers[index].points,
             Self::ExactPoints => &buffers.exact_points.as_ref()?.buffer.points,

@@ -10,9 +10,10 @@
 //! strokes are for the caller, too.
 
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
-use guideway_scene::Scene;
 use guideway_scene::cluster::DirtyClusters;
+use guideway_scene::{RenderError, Scene};
 use rayon::prelude::*;
 
 use super::cluster::ClusterOrigin;
@@ -21,7 +22,8 @@ use super::pack::Packing;
 use super::path_parts::PathPart;
 use super::path_strokes::{PathStrokes, cluster_of, stroke_capacity};
 use super::scene_buffers::SceneBuffers;
-use crate::device::Patch;
+use crate::device::{Patch, Patcher};
+use crate::tiles::device_context::DeviceContext;
 use crate::tiles::layouts::{PointFormat, Stroke};
 
 /// Paths of a task: some 200 microseconds of work.
@@ -33,6 +35,43 @@ pub(super) struct Rewriter<'a> {
     pub(super) buffers: &'a SceneBuffers,
     pub(super) path_strokes: &'a PathStrokes,
     pub(super) packing: Packing,
+    /// Empty patches with memory of earlier ones.
+    pub(super) spare: &'a SparePatches,
+}
+
+/// Empty patches, for tasks to use again: fresh memory costs more than what is written to it.
+pub(crate) type SparePatches = Mutex<Vec<Patch>>;
+/// Most spare patches: those of one batch.
+const MAX_SPARE: usize = 64;
+
+/// Sends the points of tasks, and makes their patches spare. Returns the bytes sent.
+pub(super) fn send_points(
+    tasks: &mut [Rewritten],
+    buffers: &SceneBuffers,
+    patcher: &mut Option<Patcher>,
+    device: &mut DeviceContext,
+    spare: &SparePatches,
+) -> Result<u64, RenderError> {
+    let mut patches = BTreeMap::<_, Vec<&Patch>>::new();
+    for (target, patch) in tasks.iter().flat_map(|task| &task.points) {
+        patches.entry(*target).or_default().push(patch);
+    }
+    let bytes = patches.values().flatten().map(|patch| patch.bytes()).sum();
+    for (target, patches) in patches {
+        if let Some(buffer) = target.buffer(buffers) {
+            let (patcher, target) = device.patch(patcher, buffer)?;
+            patcher.apply(target, &patches)?;
+        }
+    }
+    let mut spare = spare.lock().unwrap_or_else(PoisonError::into_inner);
+    for task in tasks {
+        let used = std::mem::take(&mut task.points).into_values();
+        for mut patch in used.take(MAX_SPARE.saturating_sub(spare.len())) {
+            patch.clear();
+            spare.push(patch);
+        }
+    }
+    Ok(bytes)
 }
 
 /// Changes of some paths.
@@ -164,10 +203,19 @@ impl Rewriter<'_> {
         }
         let buffer = (buffers.point_buffers).partition_point(|b| b.clusters.end <= place.cluster);
         let format = cluster.format();
+        let new_patch = || {
+            let spare = self
+                .spare
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .pop();
+            let words = rows * points_m.len() * format.words();
+            spare.unwrap_or_else(|| Patch::with_capacity(rows, words))
+        };
         let patch = written
             .points
             .entry(Target::Points(buffer))
-            .or_insert_with(|| Patch::with_capacity(rows, rows * points_m.len() * format.words()));
+            .or_insert_with(new_patch);
         let word = (cluster.first_point + new.first_point()) as usize * format.words();
         match format {
             PointFormat::Rounded => {

@@ -10,6 +10,7 @@ use super::draw_ranks::DrawRanks;
 use super::facts::SceneFacts;
 use super::pack::{Packed, Packing};
 use super::path_strokes::PathStrokes;
+use super::rewrite::SparePatches;
 use super::scene_buffers::{SceneBuffers, all_parts};
 use super::shown_gesture::ShownGesture;
 use crate::device::Patcher;
@@ -27,6 +28,7 @@ pub(crate) struct UploadedScene {
     /// `None` until an edit or a near view needs it.
     pub(crate) path_strokes: Option<PathStrokes>,
     pub(crate) patcher: Option<Patcher>,
+    pub(crate) spare_patches: SparePatches,
     /// The gesture that the buffers show.
     pub(crate) gesture: Option<ShownGesture>,
     /// True if an upload or an edit failed halfway, so that buffers may be inconsistent.
@@ -42,6 +44,7 @@ impl UploadedScene {
             multi_stroke_paths: BTreeSet::new(),
             path_strokes: None,
             patcher: None,
+            spare_patches: SparePatches::default(),
             gesture: None,
             buffers: None,
             scene,
