@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use guideway_scene::cluster::DirtyClusters;
 use guideway_scene::{Edit, PathState, RenderError, Scene};
+use rayon::prelude::*;
 
 use super::edit_patches::{EditPatches, Target};
 use super::pack::Packed;
@@ -28,6 +29,8 @@ const MAX_UNUSED_POINTS: usize = 1 << 16;
 const MIN_PACKED_PATHS: usize = 1 << 16;
 const PACKED_PART: usize = 4;
 
+/// Rows that one task collects.
+const TASK_ROWS: usize = 1 << 13;
 /// Paths whose points go up at once: some megabytes.
 const BATCH_PATHS: usize = 1 << 17;
 
@@ -112,10 +115,22 @@ pub(crate) fn apply(
 fn changed_rows<'a>(edit: &'a Edit, first_new: u32, scene: &Scene) -> Option<Cow<'a, [u32]>> {
     Some(match edit {
         Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => Cow::Borrowed(&**paths),
-        Edit::Restyle(_) | Edit::SetStates(_) => edit.paths().collect(),
+        Edit::Restyle(styles) => rows_of(styles, |(row, _)| *row).into(),
+        Edit::SetStates(states) => rows_of(states, |(row, _)| *row).into(),
         Edit::Insert(_) => (first_new..scene.row_count() as u32).collect(),
         Edit::Tables(_) => return None,
     })
+}
+
+/// The rows of items, by all threads if there are many.
+fn rows_of<I: Sync>(items: &[I], row: impl Fn(&I) -> u32 + Sync + Send) -> Vec<u32> {
+    match items.len() {
+        0..=TASK_ROWS => items.iter().map(row).collect(),
+        _ => {
+            let tasks = items.par_iter().with_min_len(TASK_ROWS);
+            tasks.map(row).collect()
+        }
+    }
 }
 
 /// Makes room for the styles of all paths, if they look alike no longer. `plain_before` is the
