@@ -1,14 +1,19 @@
 //! Counts of the colors and widths of paths, which edits keep up to date in time proportional to
 //! the changed paths.
 
-use guideway_layout::rows_ascend;
 use rayon::prelude::*;
 
-use super::model::{Colors, PathState, Scene};
 use crate::color::Rgba;
 
 /// Rows of a task.
 const TASK_ROWS: usize = 1 << 13;
+
+/// The style and visibility of a path.
+pub(super) struct PathLook {
+    pub(super) color: Rgba,
+    pub(super) width_m: Option<f32>,
+    pub(super) is_shown: bool,
+}
 
 /// Counts of the styles of all paths.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +28,7 @@ type Extreme = Option<(f32, usize)>;
 
 /// Counts of the styles of some paths.
 #[derive(Clone, Copy, Debug, Default)]
-struct StyleCounts {
+pub(super) struct StyleCounts {
     /// Paths with a translucent color, shown or not.
     translucent: usize,
     /// Shown paths with the color of the census.
@@ -36,20 +41,39 @@ struct StyleCounts {
 }
 
 impl StyleCensus {
-    /// Looks at all paths.
-    pub(super) fn of(scene: &Scene) -> Self {
-        let rows = 0..scene.row_count() as u32;
-        let is_shown = |row: &u32| scene.state(*row) == PathState::Shown;
-        let first = rows.clone().find(is_shown);
-        let color = first.map_or(Rgba::BLACK, |row| scene.color(row));
+    /// Looks at `rows` paths.
+    pub(super) fn of(rows: usize, look: &(impl Fn(u32) -> PathLook + Sync)) -> Self {
+        let rows = 0..rows as u32;
+        let mut shown = rows.clone().map(look).filter(|path| path.is_shown);
+        let color = shown.next().map_or(Rgba::BLACK, |path| path.color);
         let tasks = rows.into_par_iter().with_min_len(TASK_ROWS);
         let counts = tasks.fold(StyleCounts::default, |counts, row| {
-            counts.with(scene, row, color)
+            counts.with(look(row), color)
         });
         Self {
             color,
             counts: counts.reduce(StyleCounts::default, StyleCounts::join),
         }
+    }
+
+    /// Counts the paths of some items, for [`Self::after`].
+    pub(super) fn counts_of<I: Sync>(
+        &self,
+        items: &[I],
+        row: &(impl Fn(&I) -> u32 + Sync),
+        look: &(impl Fn(u32) -> PathLook + Sync),
+    ) -> StyleCounts {
+        let of_task = |items: &[I]| {
+            let rows = items.iter().map(row);
+            rows.fold(StyleCounts::default(), |counts, row| {
+                counts.with(look(row), self.color)
+            })
+        };
+        if items.len() <= TASK_ROWS {
+            return of_task(items);
+        }
+        let tasks = items.par_chunks(TASK_ROWS).map(of_task);
+        tasks.reduce(StyleCounts::default, StyleCounts::join)
     }
 
     /// The color of all shown paths, of which there are `shown`.
@@ -74,7 +98,7 @@ impl StyleCensus {
     }
 
     /// The census after some paths have changed. `None` if a look at all paths has to find it.
-    fn after(&self, before: StyleCounts, after: StyleCounts) -> Option<Self> {
+    pub(super) fn after(&self, before: StyleCounts, after: StyleCounts) -> Option<Self> {
         let rest = StyleCounts {
             translucent: self.counts.translucent - before.translucent,
             alike: self.counts.alike - before.alike,
@@ -98,32 +122,11 @@ impl StyleCensus {
 }
 
 impl StyleCounts {
-    /// Counts the paths of some items.
-    fn of<I: Sync>(
-        scene: &Scene,
-        items: &[I],
-        row: &(impl Fn(&I) -> u32 + Sync),
-        color: Rgba,
-    ) -> Self {
-        let of_task = |items: &[I]| {
-            let rows = items.iter().map(row);
-            rows.fold(Self::default(), |counts, row| {
-                counts.with(scene, row, color)
-            })
-        };
-        if items.len() <= TASK_ROWS {
-            return of_task(items);
-        }
-        let tasks = items.par_chunks(TASK_ROWS).map(of_task);
-        tasks.reduce(Self::default, Self::join)
-    }
-
-    fn with(mut self, scene: &Scene, row: u32, color: Rgba) -> Self {
-        let own = scene.color(row);
-        self.translucent += usize::from(!own.is_opaque());
-        if scene.state(row) == PathState::Shown {
-            self.alike += usize::from(own == color);
-            if let Some(width_m) = scene.width_m(row) {
+    fn with(mut self, path: PathLook, color: Rgba) -> Self {
+        self.translucent += usize::from(!path.color.is_opaque());
+        if path.is_shown {
+            self.alike += usize::from(path.color == color);
+            if let Some(width_m) = path.width_m {
                 self.own_widths += 1;
                 let own = Some((width_m, 1));
                 self.narrowest = extreme(self.narrowest, own, |a, b| a < b);
@@ -156,73 +159,9 @@ fn extreme(a: Extreme, b: Extreme, is_beyond: impl Fn(f32, f32) -> bool) -> Extr
     }
 }
 
-/// An extreme without the paths that had it before; of none if these were all.
+/// An extreme without the paths that had it before an edit.
 fn without(all: Extreme, before: Extreme) -> Extreme {
     let changed = before.filter(|(before_m, _)| all.is_some_and(|(all_m, _)| all_m == *before_m));
     let changed = changed.map_or(0, |(_, paths)| paths);
     all.map(|(width_m, paths)| (width_m, paths - changed))
-}
-
-impl Scene {
-    /// The color shared by all shown paths, if there is one; black without paths.
-    pub fn common_color(&self) -> Option<Rgba> {
-        match &self.colors {
-            Colors::One(_) if self.shown_count == 0 => Some(Rgba::BLACK),
-            Colors::One(color) => Some(*color),
-            Colors::Each(_) => self.census().common_color(self.shown_count),
-        }
-    }
-
-    /// Least and greatest own width of the shown paths, in meters; `None` if none has its own.
-    pub fn own_widths_m(&self) -> Option<(f32, f32)> {
-        self.layout.paths.width_m()?;
-        self.census().own_widths_m()
-    }
-
-    /// Greatest own width of the shown paths, in meters; `None` if none has its own.
-    pub fn widest_m(&self) -> Option<f32> {
-        self.own_widths_m().map(|(_, widest_m)| widest_m)
-    }
-
-    /// Returns `true` if all paths are opaque.
-    pub fn is_opaque(&self) -> bool {
-        match &self.colors {
-            Colors::One(color) => color.is_opaque(),
-            Colors::Each(_) => self.census().is_opaque(),
-        }
-    }
-
-    /// Counts of styles. The first call after edits that leave it unknown looks at all paths.
-    fn census(&self) -> &StyleCensus {
-        self.census.get_or_init(|| StyleCensus::of(self))
-    }
-
-    /// Runs a change of the styles or states of some paths, and updates the census.
-    pub(crate) fn track_styles<I: Sync>(
-        &mut self,
-        items: &[I],
-        row: &(impl Fn(&I) -> u32 + Sync),
-        change: impl FnOnce(&mut Self),
-    ) {
-        let known = self.census.take();
-        let known = known.filter(|_| rows_ascend(items, row));
-        let before = known.map(|known| StyleCounts::of(self, items, row, known.color));
-        change(self);
-        if let (Some(known), Some(before)) = (known, before) {
-            let after = StyleCounts::of(self, items, row, known.color);
-            if let Some(census) = known.after(before, after) {
-                self.census = census.into();
-            }
-        }
-    }
-
-    /// Adds new rows to the census.
-    pub(super) fn count_new_styles(&mut self, new: &[u32]) {
-        if let Some(known) = self.census.take() {
-            let counts = StyleCounts::of(self, new, &|row| *row, known.color);
-            if let Some(census) = known.after(StyleCounts::default(), counts) {
-                self.census = census.into();
-            }
-        }
-    }
 }

@@ -3,19 +3,24 @@
 //! | file | content |
 //! |---|---|
 //! | `model` | [`Scene`], its options and queries |
-//! | `states` | states of paths, their numbers, the draw order |
-//! | `census` | counts of colors and widths, kept by edits |
+//! | `path_state`, `draw_order` | [`PathState`]; the order in which shown paths are drawn |
+//! | `states` | sets and counts states, adds and drops rows |
+//! | `census`, `styles` | counts of colors and widths, kept by edits; what shown paths share |
 //! | `bounds` | bounding box of the drawn curves |
 //! | `level` | the level that a scene shows |
 //! | `error` | [`SceneError`] |
 
 mod bounds;
 mod census;
+mod draw_order;
 mod error;
 mod level;
 mod model;
+mod path_state;
 mod states;
+mod styles;
 
 pub use error::{NoOpaqueColor, SceneError};
 pub(crate) use model::{Colors, own_color};
-pub use model::{LayoutCopy, PathState, Scene, SceneOptions};
+pub use model::{LayoutCopy, Scene, SceneOptions};
+pub use path_state::PathState;

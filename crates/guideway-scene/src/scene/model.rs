@@ -8,9 +8,10 @@ use guideway_spline::Bounds;
 
 use super::bounds::curve_bounds;
 use super::census::StyleCensus;
-use super::error::{NoOpaqueColor, SceneError};
+use super::draw_order::{draw_order, states};
+use super::error::SceneError;
 use super::level::visible_level;
-use super::states::{draw_order, states};
+use super::path_state::PathState;
 use crate::color::Rgba;
 use crate::color_by::{self, ColorBy, Legend};
 use crate::ramp::NumberColors;
@@ -50,7 +51,7 @@ pub struct Scene {
     pub(super) removed_count: usize,
     pub(super) shown_count: usize,
     /// Removed nodes and stations, by row; rows past the end exist.
-    removed_places: [Vec<bool>; 2],
+    pub(super) removed_places: [Vec<bool>; 2],
     /// The only visible level; `None` shows all.
     pub(crate) level: Option<u32>,
     /// Computed on first use after a change.
@@ -76,18 +77,6 @@ impl LayoutCopy {
         let copy = Arc::new(Layout::clone(&of));
         Self { of, copy }
     }
-}
-
-/// Visibility of a path.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PathState {
-    /// Drawn.
-    #[default]
-    Shown,
-    /// Not drawn, but part of the layout; reports count it as hidden.
-    Hidden,
-    /// No longer part of the layout. Its row stays, so that no other row changes.
-    Removed,
 }
 
 #[derive(Clone, Debug)]
@@ -264,44 +253,11 @@ impl Scene {
         }
     }
 
-    /// Drops all rows of paths, nodes and stations but the first ones, and gives their memory back.
-    /// Unlike an edit it has no inverse, and costs time proportional to what is left.
-    ///
-    /// # Panics
-    /// When a table has fewer rows.
-    pub fn truncate(&mut self, rows: [usize; 3]) {
-        self.layout = Arc::new(self.layout.first_rows(rows));
-        let [paths, places @ ..] = rows;
-        if let Colors::Each(colors) = &mut self.colors {
-            colors.truncate(paths);
-            colors.shrink_to_fit();
-        }
-        self.states.truncate(paths);
-        self.states.shrink_to_fit();
-        for (removed, count) in self.removed_places.iter_mut().zip(places) {
-            removed.truncate(count);
-            removed.shrink_to_fit();
-        }
-        self.rows_changed();
-    }
-
     /// Color of a path, by row.
     pub fn color(&self, path: u32) -> Rgba {
         match &self.colors {
             Colors::One(color) => *color,
             Colors::Each(colors) => colors[path as usize],
-        }
-    }
-
-    /// The opaque color shared by all shown paths; black without paths.
-    ///
-    /// # Errors
-    /// When paths differ in color or are translucent.
-    pub fn opaque_color(&self) -> Result<Rgba, NoOpaqueColor> {
-        match self.common_color() {
-            None => Err(NoOpaqueColor::Several),
-            Some(color) if !color.is_opaque() => Err(NoOpaqueColor::Translucent),
-            Some(color) => Ok(color),
         }
     }
 

@@ -1,11 +1,12 @@
-//! States of paths: sets and counts them, and computes the draw order of the shown ones.
+//! States and numbers of paths: sets and counts states, adds and drops rows.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use guideway_layout::{Layout, PathRef, for_each_row, rows_ascend};
+use guideway_layout::{for_each_row, rows_ascend};
 use rayon::prelude::*;
 
-use super::model::{PathState, Scene};
+use super::model::{Colors, Scene};
+use super::path_state::PathState;
 
 /// Rows of a task.
 const TASK_ROWS: usize = 1 << 14;
@@ -17,13 +18,29 @@ impl Scene {
         is_unknown && self.layout.paths.rank().is_none() || self.draw_order().is_sorted()
     }
 
-    /// Returns `true` if all shown paths have one color, and none a width of its own.
-    pub fn is_plain(&self) -> bool {
-        self.common_color().is_some() && self.widest_m().is_none()
+    /// Drops all rows of paths, nodes and stations but the first ones, and gives their memory back.
+    /// Unlike an edit it has no inverse, and costs time proportional to what is left.
+    ///
+    /// # Panics
+    /// When a table has fewer rows.
+    pub fn truncate(&mut self, rows: [usize; 3]) {
+        self.layout = Arc::new(self.layout.first_rows(rows));
+        let [paths, places @ ..] = rows;
+        if let Colors::Each(colors) = &mut self.colors {
+            colors.truncate(paths);
+            colors.shrink_to_fit();
+        }
+        self.states.truncate(paths);
+        self.states.shrink_to_fit();
+        for (removed, count) in self.removed_places.iter_mut().zip(places) {
+            removed.truncate(count);
+            removed.shrink_to_fit();
+        }
+        self.rows_changed();
     }
 
     /// Drops what depends on the rows, and counts states; call after rows change.
-    pub(crate) fn rows_changed(&mut self) {
+    fn rows_changed(&mut self) {
         let tasks = self.states.par_iter().with_min_len(TASK_ROWS);
         let count = |of: PathState| tasks.clone().filter(|state| **state == of).count();
         self.removed_count = count(PathState::Removed);
@@ -105,33 +122,4 @@ impl std::iter::Sum for StateCounts {
             removed: a.removed + b.removed,
         })
     }
-}
-
-/// Initial state per row: hides the paths of all levels but `level`.
-pub(super) fn states(layout: &Layout, level: Option<u32>) -> Vec<PathState> {
-    if level.is_none() {
-        return Vec::new();
-    }
-    let state = |path: PathRef<'_>| match path.level() == level {
-        true => PathState::Shown,
-        false => PathState::Hidden,
-    };
-    layout.paths.iter().map(state).collect()
-}
-
-/// Rows of the shown paths, lowest draw rank first; `states` is empty if all are shown.
-pub(super) fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
-    let rows = 0..layout.paths.len() as u32;
-    let mut order: Vec<u32> = match states.is_empty() {
-        true => rows.into_par_iter().collect(),
-        false => {
-            let tasks = rows.into_par_iter().with_min_len(TASK_ROWS);
-            let is_shown = |path: &u32| states[*path as usize] == PathState::Shown;
-            tasks.filter(is_shown).collect()
-        }
-    };
-    if let Some(rank) = layout.paths.rank() {
-        order.sort_by_key(|&path| rank[path as usize]);
-    }
-    order
 }

@@ -2,7 +2,6 @@
 
 use guideway_spline::{Affine, Bounds, Point};
 
-use super::rewrite::LocalBox;
 use crate::tiles::layouts::{Cluster, PointFormat};
 
 /// Converts world coordinates to those of a cluster.
@@ -143,6 +142,28 @@ impl Cluster {
     pub(crate) fn reach_m(&self) -> f32 {
         let ends = self.low_m.into_iter().chain(self.high_m);
         ends.map(f32::abs).fold(0.0, f32::max)
+    }
+}
+
+/// Least and greatest coordinates of points, relative to the origin of a cluster.
+#[derive(Clone, Copy)]
+pub(crate) struct LocalBox {
+    pub(crate) low_m: [f32; 2],
+    pub(crate) high_m: [f32; 2],
+}
+
+impl LocalBox {
+    /// The box of points.
+    pub(crate) fn of(points_m: &[[f32; 2]]) -> Self {
+        let mut all = Self {
+            low_m: [f32::INFINITY; 2],
+            high_m: [f32::NEG_INFINITY; 2],
+        };
+        for &[x, y] in points_m {
+            all.low_m = [all.low_m[0].min(x), all.low_m[1].min(y)];
+            all.high_m = [all.high_m[0].max(x), all.high_m[1].max(y)];
+        }
+        all
     }
 }
 

@@ -4,10 +4,10 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use guideway_scene::cluster::DirtyClusters;
 use guideway_scene::{Edit, PathState, RenderError, Scene};
 use rayon::prelude::*;
 
+use super::edit_effect::EditEffect;
 use super::edit_patches::{EditPatches, Target};
 use super::pack::Packed;
 use super::path_parts::PathPart;
@@ -40,21 +40,6 @@ pub(crate) enum SceneBufferEdit {
     Applied(EditEffect),
     /// The scene must be uploaded again.
     NeedsUpload,
-}
-
-/// Consequences of an applied edit for cached frames.
-#[derive(Default)]
-pub(crate) struct EditEffect {
-    /// Bytes sent to the device.
-    pub(crate) moved_bytes: u64,
-    /// Clusters with changed curves.
-    pub(crate) dirty: DirtyClusters,
-    /// The edit changed how all paths look.
-    pub(crate) changes_appearance: bool,
-    /// Line blocks of clusters are lost.
-    pub(crate) loses_lines: bool,
-    /// Bind groups refer to replaced buffers.
-    pub(crate) replaces_buffers: bool,
 }
 
 /// Applies an edit. After an error `UploadedScene::is_incomplete` is set.

@@ -10,7 +10,7 @@ use guideway_scene::{Gesture, GesturePaths, RenderError};
 use guideway_spline::Affine;
 use rayon::prelude::*;
 
-use super::edit::EditEffect;
+use super::edit_effect::EditEffect;
 use super::edit_patches::{EditPatches, STROKE_WORDS};
 use super::pack::Packed;
 use super::path_parts::PathPart;

@@ -11,12 +11,13 @@
 //! | `uploaded_scene` | the scene and all of the above |
 //! | `near_upload` | uploads exact points of near clusters |
 //! | `shown_gesture`, `gesture` | shows the paths of a gesture by mapping their clusters |
-//! | `edit`, `edit_patches` | applies an edit; `dirty_clusters` are the clusters it changes |
+//! | `edit`, `edit_patches`, `edit_effect` | applies an edit; what that means for cached frames |
 //! | `rewrite`, `states`, `style_changes` | new curves, states and styles, by all threads |
 
 pub(crate) mod cluster;
 pub(crate) mod draw_ranks;
 pub(crate) mod edit;
+pub(crate) mod edit_effect;
 mod edit_patches;
 pub(crate) mod exact_points;
 pub(crate) mod facts;

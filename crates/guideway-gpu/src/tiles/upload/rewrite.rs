@@ -16,7 +16,7 @@ use guideway_scene::cluster::DirtyClusters;
 use guideway_scene::{RenderError, Scene};
 use rayon::prelude::*;
 
-use super::cluster::ClusterOrigin;
+use super::cluster::{ClusterOrigin, LocalBox};
 use super::edit_patches::Target;
 use super::pack::Packing;
 use super::path_parts::PathPart;
@@ -86,13 +86,6 @@ pub(super) struct Rewritten {
     pub(super) dirty: DirtyClusters,
     /// Rows that do not fit in the place of their strokes.
     pub(super) others: Vec<u32>,
-}
-
-/// Least and greatest coordinates of points, relative to the origin of a cluster.
-#[derive(Clone, Copy)]
-pub(crate) struct LocalBox {
-    pub(crate) low_m: [f32; 2],
-    pub(crate) high_m: [f32; 2],
 }
 
 /// Buffers that a task uses again for each path.
@@ -233,19 +226,5 @@ impl Rewriter<'_> {
             written.grown.push((place.cluster, place.box_m));
         }
         written.dirty.add(place.cluster as usize);
-    }
-}
-
-impl LocalBox {
-    fn of(points_m: &[[f32; 2]]) -> Self {
-        let mut all = Self {
-            low_m: [f32::INFINITY; 2],
-            high_m: [f32::NEG_INFINITY; 2],
-        };
-        for &[x, y] in points_m {
-            all.low_m = [all.low_m[0].min(x), all.low_m[1].min(y)];
-            all.high_m = [all.high_m[0].max(x), all.high_m[1].max(y)];
-        }
-        all
     }
 }

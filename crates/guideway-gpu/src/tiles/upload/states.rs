@@ -4,7 +4,7 @@ use guideway_scene::cluster::DirtyClusters;
 use guideway_scene::{PathState, RenderError, Scene};
 use rayon::prelude::*;
 
-use super::edit::EditEffect;
+use super::edit_effect::EditEffect;
 use super::edit_patches::STROKE_WORDS;
 use super::path_strokes::{PathStrokes, cluster_of};
 use super::scene_buffers::SceneBuffers;
