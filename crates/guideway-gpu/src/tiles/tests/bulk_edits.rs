@@ -4,6 +4,7 @@ use guideway_scene::{Edit, PathState};
 use guideway_spline::Affine;
 
 use super::edits::Pair;
+use super::exact_points::{dense, exact_clusters, scene};
 use super::*;
 
 #[test]
@@ -68,19 +69,15 @@ fn edit_of_many_paths_equals_a_fresh_preparation_to_the_bit() {
 #[test]
 fn paths_shown_again_in_a_near_view_have_their_exact_points() {
     let Some(tiles) = tiles() else { return };
-    let (scene, style) = (plain(6400, 2.0), Style::default());
-    let near = view([50.0, 30.0], 2000.0);
-    let states = |state| Edit::SetStates((0..6400).step_by(2).map(|row| (row, state)).collect());
+    let (scene, style) = (scene(dense(3000, 1.0)), Style::default());
+    let near = view([50.0, 30.0], 100.0);
+    let states = |state| Edit::SetStates((0..3000).step_by(2).map(|row| (row, state)).collect());
     let mut edited = prepared(&tiles, &scene);
     edited.edit(&states(PathState::Hidden)).unwrap();
     let (half, _) = picture(&mut edited, &near, &style);
+    assert!(!exact_clusters(&edited).is_empty());
     edited.edit(&states(PathState::Shown)).unwrap();
     let (drawn, _) = picture(&mut edited, &near, &style);
-    let is_near = |prepared: &PreparedTiles| {
-        let buffers = prepared.scene.buffers.as_ref();
-        buffers.is_some_and(|buffers| buffers.exact_points.is_some())
-    };
-    assert!(is_near(&edited));
     let mut fresh = prepared(&tiles, &scene);
     assert!(drawn == picture(&mut fresh, &near, &style).0 && drawn != half);
 }
