@@ -98,10 +98,11 @@ impl Cluster {
 
     /// Quantizes a point to two 16-bit multiples of the step.
     pub(crate) fn quantize(&self, local_m: [f32; 2]) -> u32 {
-        // Halves round away from zero. `f32::round` calls a function on most processors; here the
-        // conversion truncates and saturates.
+        // `f32::round` calls a function on most processors. The conversion truncates and saturates:
+        // with the number below a half, halves round away from zero, and nothing else does.
+        const HALF: f32 = 0.5_f32.next_down();
         let steps = local_m.map(|v| v / self.step_m);
-        let [x, y] = steps.map(|v| u32::from((v + 0.5_f32.copysign(v)) as i16 as u16));
+        let [x, y] = steps.map(|v| u32::from((v + HALF.copysign(v)) as i16 as u16));
         x | y << 16
     }
 
@@ -180,4 +181,23 @@ fn stretch(by: Affine) -> f64 {
     let area = by.x.cross(by.y);
     let root = (squares * squares - 4.0 * area * area).max(0.0).sqrt();
     ((squares + root) / 2.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_round_to_the_nearest_step_halves_away_from_zero() {
+        let cluster = Cluster {
+            step_m: 1.0,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        let halves = (-66_000..66_000).map(|half| half as f32 / 2.0);
+        let numbers = halves.flat_map(|half| [half.next_down(), half, half.next_up()]);
+        for v in numbers.chain([0.499_999_97, -0.499_999_97, 1e9, -1e9]) {
+            let expected = u32::from(v.round() as i16 as u16);
+            assert_eq!(cluster.quantize([v, 0.0]), expected, "{v}");
+        }
+    }
 }
