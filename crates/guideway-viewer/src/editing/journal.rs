@@ -1,7 +1,9 @@
 //! Records the edits of one document in its journal file, and suspends that while a save runs.
 
 use std::io;
+use std::io::ErrorKind::{QuotaExceeded, ResourceBusy, StorageFull, WouldBlock};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use guideway_document::{Document, ReplayProgress, SavedState};
 use guideway_layout::shown_path;
@@ -11,11 +13,18 @@ use super::notice::Notice;
 use super::unsaved_work::{UnsavedSummary, UnsavedWork};
 use crate::language::{say, t};
 
+/// Time after which a journal that could not be written is tried again.
+const RETRY: Duration = Duration::from_secs(1);
+
 /// The journal of a document. It moves between threads with its document.
 #[derive(Default)]
 pub(crate) struct Journal {
-    /// `None` before a document is loaded, and after the file could not be opened or written.
+    /// `None` before a document is loaded, and where the file cannot be used.
     file: Option<JournalFile>,
+    /// Time of the last attempt, while the file cannot be written.
+    failed_at: Option<Instant>,
+    /// Why there is no copy of the file as read, which the save in progress may replace.
+    lacks_base: Option<io::ErrorKind>,
     /// A notice about the journal that was opened.
     notice: Option<Notice>,
     /// The saved state before the save in progress. While a save runs nothing is recorded: an entry
@@ -45,7 +54,7 @@ impl Journal {
     }
 
     /// The notice about a journal that was opened: unsaved work that does not match the layout
-    /// file, or a journal that cannot be used.
+    /// file, or a journal that cannot be used. Also that a journal is written again.
     pub(crate) fn take_notice(&mut self) -> Option<Notice> {
         self.notice.take()
     }
@@ -79,12 +88,13 @@ impl Journal {
     /// Appends all edits since the last call.
     ///
     /// # Errors
-    /// Once, when the journal cannot be written; later calls record nothing.
+    /// Once, when the journal cannot be written; later calls try again.
     pub(super) fn record(&mut self, document: &mut Document, file: &Path) -> Result<(), Notice> {
+        let is_waiting = self.failed_at.is_some_and(|at| at.elapsed() < RETRY);
         match &mut self.file {
-            Some(journal) if self.saving.is_none() => {
+            Some(journal) if self.saving.is_none() && !is_waiting => {
                 let result = journal.record(document, file);
-                self.close_on_error(result, file)
+                self.follow(result, file)
             }
             _ => Ok(()),
         }
@@ -118,41 +128,75 @@ impl Journal {
     ) -> Result<Option<BaseCopy>, Notice> {
         self.saving = Some(before);
         let result = self.file.as_mut().map(|journal| journal.base_copy(file));
-        self.close_on_error(result.transpose(), file)
-    }
-
-    /// Closes the journal if the file as read was not copied: its entries begin with that file.
-    ///
-    /// # Errors
-    /// When it was not.
-    pub(crate) fn end_copy(&mut self, copied: io::Result<()>, file: &Path) -> Result<(), Notice> {
-        self.close_on_error(copied, file)
-    }
-
-    /// Resumes recording after a successful save to `file`.
-    ///
-    /// # Errors
-    /// When the journal cannot be written.
-    pub(crate) fn complete_save(&mut self, file: &Path) -> Result<(), Notice> {
-        self.saving = None;
-        match &mut self.file {
-            Some(journal) => {
-                let result = journal.mark_saved(file);
-                self.close_on_error(result, file)
-            }
-            None => Ok(()),
+        let error = result.as_ref().and_then(|copy| copy.as_ref().err());
+        self.lacks_base = error.map(io::Error::kind);
+        match result {
+            Some(Ok(copy)) => Ok(Some(copy)),
+            Some(Err(error)) => self.follow(Err(error), file).map(|()| None),
+            None => Ok(None),
         }
+    }
+
+    /// Resumes recording after a successful save to `file`, before which the file as read was
+    /// copied or not.
+    ///
+    /// # Errors
+    /// When the journal cannot be written. It ends where that file is gone with which its entries
+    /// begin.
+    pub(crate) fn complete_save(
+        &mut self,
+        file: &Path,
+        copied: io::Result<()>,
+    ) -> Result<(), Notice> {
+        self.saving = None;
+        let lacks_base = self.lacks_base.take();
+        let Some(journal) = &mut self.file else {
+            return Ok(());
+        };
+        if !journal.is_of(file) {
+            let moved = journal.mark_saved(file);
+            self.failed_at = None;
+            return self.close_on_error(moved, file);
+        }
+        let copied = lacks_base.map_or(copied, |kind| Err(kind.into()));
+        if copied.is_err() {
+            return self.close_on_error(copied, file);
+        }
+        let marked = journal.mark_saved(file);
+        self.follow(marked, file)
     }
 
     /// Resumes recording after a failed save. Returns the saved state to restore.
     pub(crate) fn abort_save(&mut self) -> Option<SavedState> {
+        self.lacks_base = None;
         self.saving.take()
     }
 
     /// Deletes the journal: its work is saved or unwanted.
     pub(crate) fn discard(&mut self) {
+        self.failed_at = None;
         if let Some(journal) = &mut self.file {
             journal.delete();
+        }
+    }
+
+    /// Tells that the journal cannot be written, once, and that it is written again. One that
+    /// another window has is closed.
+    fn follow(&mut self, result: io::Result<()>, file: &Path) -> Result<(), Notice> {
+        let Err(error) = result else {
+            if self.failed_at.take().is_some() {
+                let file = shown_path(file);
+                self.notice = Some(say!("{file}: unsaved work is recorded again", file));
+            }
+            return Ok(());
+        };
+        if matches!(error.kind(), WouldBlock | ResourceBusy) {
+            return self.close_on_error(Err(error), file);
+        }
+        let is_told = self.failed_at.replace(Instant::now()).is_some();
+        match is_told {
+            true => Ok(()),
+            false => Err(unwritten(file, &error)),
         }
     }
 
@@ -165,13 +209,30 @@ impl Journal {
     }
 }
 
+/// The notice about a journal that cannot be written for now.
+fn unwritten(layout_file: &Path, error: &io::Error) -> Notice {
+    let (file, reason) = (shown_path(layout_file), reason(error));
+    say!(
+        "{file}: {reason}. Meanwhile unsaved work would not survive a crash: save often, or \
+         elsewhere",
+        file,
+        reason
+    )
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        WouldBlock => t("the file is open in another window, which has the journal").to_owned(),
+        StorageFull | QuotaExceeded => {
+            t("the disk is full, so the journal beside this file cannot be written").to_owned()
+        }
+        _ => say!("cannot write the journal beside this file: {error}", error),
+    }
+}
+
 /// The notice about a journal that cannot be opened or written.
 fn unusable(layout_file: &Path, error: &io::Error) -> Notice {
-    let file = shown_path(layout_file);
-    let reason = match error.kind() {
-        io::ErrorKind::WouldBlock => t("the file is open in another window, which has the journal"),
-        _ => &say!("cannot write the journal beside this file: {error}", error),
-    };
+    let (file, reason) = (shown_path(layout_file), reason(error));
     say!(
         "{file}: {reason}. Unsaved work would not survive a crash: save often",
         file,

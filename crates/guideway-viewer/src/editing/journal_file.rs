@@ -8,13 +8,13 @@
 //! Entries name rows of the file as read, and a save renumbers the rows. So the first save copies
 //! the file as read, and base plus journal restore the work, even where nothing was edited before.
 //! The journal is not flushed to disk per entry: it survives a crash of the program, not a power
-//! cut.
+//! cut. Entries that the disk has no room for wait in memory.
 //!
 //! The window that has locked the journal owns both files. Another window on the same layout file
 //! reads, writes and deletes neither.
 
 use std::ffi::OsString;
-use std::fs::{self, File, Metadata, Permissions};
+use std::fs::{self, File};
 use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -22,14 +22,21 @@ use guideway_compose::lock_regular_file;
 use guideway_document::{Document, JournalEntry, ReplayProgress};
 
 use super::journal_header::{HEADER_BYTES, header, read_header};
+use super::journal_writes::{append, copy, create, rewrite, with_suffix};
 use super::unsaved_work::{UnsavedSummary, UnsavedWork, read_entries};
 
 /// A journal file. It is created with the first entry, or before the first save.
 pub(crate) struct JournalFile {
     pub(super) journal: PathBuf,
     base: PathBuf,
+    /// The layout file that it belongs to.
+    layout_file: PathBuf,
     /// Open and locked; `None` until it is created.
     file: Option<File>,
+    /// Entries that could not be written yet.
+    pending: Vec<u8>,
+    /// Bytes of entries that are in the saved layout file, until the header says so.
+    saved_to_mark: Option<u64>,
     /// Unsaved work of an earlier run that awaits a decision.
     unsaved: Option<UnsavedSummary>,
     /// Destination of unsaved work that does not match the layout file.
@@ -43,13 +50,7 @@ impl JournalFile {
     /// # Errors
     /// When another window has the journal, or it cannot be opened.
     pub(crate) fn open(layout_file: &Path) -> io::Result<Self> {
-        let mut opened = Self {
-            journal: sibling(layout_file, "journal"),
-            base: sibling(layout_file, "base"),
-            file: None,
-            unsaved: None,
-            mismatched_copy: None,
-        };
+        let mut opened = Self::absent(layout_file);
         let mut file = match lock_regular_file(&opened.journal, false) {
             Ok(file) => file,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(opened),
@@ -68,6 +69,19 @@ impl JournalFile {
             opened.delete();
         }
         Ok(opened)
+    }
+
+    fn absent(layout_file: &Path) -> Self {
+        Self {
+            journal: sibling(layout_file, "journal"),
+            base: sibling(layout_file, "base"),
+            layout_file: layout_file.to_owned(),
+            file: None,
+            pending: Vec::new(),
+            saved_to_mark: None,
+            unsaved: None,
+            mismatched_copy: None,
+        }
     }
 
     /// Renames journal and base, and replaces older copies of that name.
@@ -127,7 +141,7 @@ impl JournalFile {
         Ok(is_all)
     }
 
-    /// Appends the document's new entries.
+    /// Appends the document's new entries. Those that cannot be written come with the next ones.
     ///
     /// # Errors
     /// When the journal cannot be written, or another window has it.
@@ -136,18 +150,35 @@ impl JournalFile {
             return Ok(());
         }
         let entries = document.take_journal_entries();
-        if entries.is_empty() {
-            return Ok(());
+        let records = entries.iter().flat_map(JournalEntry::to_record);
+        self.pending.extend(records);
+        self.write_pending(layout_file)
+    }
+
+    fn write_pending(&mut self, layout_file: &Path) -> io::Result<()> {
+        if !self.pending.is_empty() {
+            let pending = std::mem::take(&mut self.pending);
+            let written = self.created(layout_file);
+            let written = written.and_then(|file| append(file, &pending));
+            if written.is_err() {
+                self.pending = pending;
+            }
+            written?;
         }
-        let records: Vec<u8> = entries.iter().flat_map(JournalEntry::to_record).collect();
-        self.created(layout_file)?.write_all(&records)
+        if let (Some(saved), Some(file)) = (self.saved_to_mark, &mut self.file) {
+            file.rewind()?;
+            file.write_all(&header(layout_file, saved)?)?;
+            self.saved_to_mark = None;
+        }
+        Ok(())
     }
 
     /// The journal, which is created where there is none. One that vanished is written again.
     fn created(&mut self, layout_file: &Path) -> io::Result<&mut File> {
         let is_gone = || fs::symlink_metadata(&self.journal).is_err();
-        if let Some(vanished) = self.file.take_if(|_| is_gone()) {
-            self.file = Some(rewrite(vanished, &self.journal)?);
+        if let Some(vanished) = self.file.as_mut().filter(|_| is_gone()) {
+            let written = rewrite(vanished, &self.journal)?;
+            self.file = Some(written);
         }
         match &mut self.file {
             Some(file) => Ok(file),
@@ -172,47 +203,56 @@ impl JournalFile {
         })
     }
 
+    /// Returns `true` if it is the journal of this layout file.
+    pub(super) fn is_of(&self, layout_file: &Path) -> bool {
+        sibling(layout_file, "journal") == self.journal
+    }
+
     /// Marks all entries as saved, in `layout_file`, which may have another name than before.
     ///
     /// # Errors
     /// When the journal cannot be written, or another window has that of the other name.
     pub(super) fn mark_saved(&mut self, layout_file: &Path) -> io::Result<()> {
-        if sibling(layout_file, "journal") != self.journal {
+        if !self.is_of(layout_file) {
             self.move_to(layout_file)?;
         }
-        let Some(file) = &mut self.file else {
-            return Ok(());
+        let on_disk = match &self.file {
+            Some(file) => file.metadata()?.len() - HEADER_BYTES as u64,
+            None => 0,
         };
-        let end = file.seek(SeekFrom::End(0))?;
-        file.rewind()?;
-        file.write_all(&header(layout_file, end - HEADER_BYTES as u64)?)?;
-        file.seek(SeekFrom::End(0)).map(drop)
+        self.saved_to_mark = Some(on_disk + self.pending.len() as u64);
+        self.write_pending(layout_file)
     }
 
     /// Moves journal and base beside another layout file. Unsaved work that is there already is
     /// moved aside.
     fn move_to(&mut self, layout_file: &Path) -> io::Result<()> {
-        let mut moved = Self {
-            journal: sibling(layout_file, "journal"),
-            base: sibling(layout_file, "base"),
-            file: None,
-            unsaved: None,
-            mismatched_copy: None,
-        };
-        if let Some(file) = &mut self.file {
+        let mut moved = Self::absent(layout_file);
+        if self.file.is_some() || !self.pending.is_empty() {
             let mut target = lock_regular_file(&moved.journal, true)?;
             if target.metadata()?.len() > HEADER_BYTES as u64 {
                 moved.move_aside();
                 target = lock_regular_file(&moved.journal, true)?;
             }
             target.set_len(0)?;
-            file.rewind()?;
-            io::copy(file, &mut target)?;
+            match &mut self.file {
+                Some(file) => {
+                    file.rewind()?;
+                    io::copy(file, &mut target)?;
+                }
+                None => target.write_all(&header(layout_file, 0)?)?,
+            }
+            moved.pending.clone_from(&self.pending);
             moved.file = Some(target);
         }
         let _ = fs::remove_file(&moved.base);
-        if self.base.exists() {
-            copy(&self.base, &moved.base)?;
+        if moved.file.is_some() {
+            // Without room for the copy, the file as read is still the base.
+            let base = match self.base.exists() {
+                true => &self.base,
+                false => &self.layout_file,
+            };
+            copy(base, &moved.base)?;
         }
         self.delete();
         *self = moved;
@@ -222,6 +262,8 @@ impl JournalFile {
     /// Deletes journal and base, which this window owns.
     pub(super) fn delete(&mut self) {
         self.unsaved = None;
+        self.pending.clear();
+        self.saved_to_mark = None;
         if let Some(_locked) = self.file.take() {
             for path in [&self.base, &self.journal] {
                 // Either may be absent.
@@ -264,57 +306,6 @@ pub(crate) fn entries_on_disk(layout_file: &Path) -> Option<(Vec<u8>, PathBuf)> 
     Some((entries, base))
 }
 
-fn create(journal: &Path, layout_file: &Path) -> io::Result<File> {
-    let header = header(layout_file, 0)?;
-    let mut file = lock_regular_file(journal, true)?;
-    if file.metadata()?.len() > 0 {
-        let reason = "another window left unsaved work in it";
-        return Err(io::Error::new(ErrorKind::ResourceBusy, reason));
-    }
-    file.set_permissions(permissions(&fs::metadata(layout_file)?))?;
-    file.write_all(&header)?;
-    Ok(file)
-}
-
-/// Writes the content of a file, which no longer has a name, under a name again.
-fn rewrite(mut vanished: File, journal: &Path) -> io::Result<File> {
-    let mut file = lock_regular_file(journal, true)?;
-    file.set_permissions(vanished.metadata()?.permissions())?;
-    vanished.rewind()?;
-    io::copy(&mut vanished, &mut file)?;
-    Ok(file)
-}
-
-/// Copies a file whole or not at all. A link of the name of the copy is replaced, not followed.
-fn copy(from: &Path, to: &Path) -> io::Result<()> {
-    let new = with_suffix(to, "-new");
-    // Left by a run that was killed.
-    let _ = fs::remove_file(&new);
-    let (mut source, mut target) = (File::open(from)?, File::create_new(&new)?);
-    let copied = target
-        .set_permissions(permissions(&source.metadata()?))
-        .and_then(|()| io::copy(&mut source, &mut target))
-        .and_then(|_| fs::rename(&new, to));
-    if copied.is_err() {
-        let _ = fs::remove_file(&new);
-    }
-    copied
-}
-
-/// The permissions of a file that tells of a layout: nobody reads it who may not read the layout,
-/// and this user may write it.
-fn permissions(of_layout: &Metadata) -> Permissions {
-    let mut permissions = of_layout.permissions();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        permissions.set_mode(permissions.mode() | 0o600);
-    }
-    #[cfg(not(unix))]
-    permissions.set_readonly(false);
-    permissions
-}
-
 /// The state of the layout file that unsaved work belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Match {
@@ -341,12 +332,6 @@ fn sibling(layout_file: &Path, kind: &str) -> PathBuf {
     name.push(layout_file.file_name().unwrap_or_default());
     name.push(format!(".guideway-{kind}"));
     layout_file.with_file_name(name)
-}
-
-fn with_suffix(file: &Path, suffix: &str) -> PathBuf {
-    let mut name = file.as_os_str().to_owned();
-    name.push(suffix);
-    name.into()
 }
 
 #[cfg(test)]

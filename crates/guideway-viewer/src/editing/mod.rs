@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`DocumentSlot`] | document, queued edits, journal, overlay | `document_slot` |
 //! | [`EditTask`] | one edit, run on another thread | `edit_task` |
-//! | [`Journal`] | the record of unsaved edits | `journal`, `journal_file`, `unsaved_work` |
+//! | [`Journal`] | the record of unsaved edits | `journal`, `journal_file`, `journal_writes`, `unsaved_work` |
 //! | [`Overlay`](overlay::Overlay) | marks and outlines of a view | `overlay` |
 //! | [`BackgroundTasks`] | recoloring, queries, checks | `background_tasks` |
 
@@ -15,6 +15,7 @@ mod findings;
 mod journal;
 mod journal_file;
 mod journal_header;
+mod journal_writes;
 mod notice;
 mod overlay;
 mod unsaved_work;

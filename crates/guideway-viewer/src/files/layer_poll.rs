@@ -25,7 +25,10 @@ impl Layer {
         events.extend(self.take_return(returned, repaint));
         let home = self.journal_home().to_owned();
         let recorded = self.slot.record(&home);
-        events.extend(recorded.err().map(LayerEvent::Notice));
+        let recorded = recorded
+            .err()
+            .or_else(|| self.slot.journal_mut().take_notice());
+        events.extend(recorded.map(LayerEvent::Notice));
         for event in self.tasks.poll(&mut self.slot, &home, repaint) {
             match event {
                 TaskEvent::Edit(task) => events.extend(self.run(task, EDIT_WAIT, repaint)),

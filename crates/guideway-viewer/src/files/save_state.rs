@@ -136,8 +136,7 @@ impl SaveState {
                 (self.is_written, self.known) = (true, state);
                 EditTask::with_journal(move |_, journal| {
                     if !opens_journal {
-                        let copied = journal.end_copy(copied, &path);
-                        return journal.complete_save(&path).and(copied);
+                        return journal.complete_save(&path, copied);
                     }
                     *journal = Journal::open(&path);
                     journal.take_notice().map_or(Ok(()), Err)

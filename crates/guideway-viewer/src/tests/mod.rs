@@ -11,6 +11,8 @@ mod files;
 mod findings;
 mod first_layout;
 mod floor_plans;
+#[cfg(target_os = "linux")]
+mod full_disk;
 mod groups;
 mod lane_network;
 mod layers;

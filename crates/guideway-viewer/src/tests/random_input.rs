@@ -1,6 +1,10 @@
 //! Random mouse and keyboard input, the same on every computer for one seed.
 
 use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
+use egui_kittest::kittest::Queryable;
+
+use guideway_layout::Layout;
+use guideway_spline::Point;
 
 use super::test_window::TestWindow;
 use crate::command::{Command, MENUS, SHORTCUTS, shortcuts_of};
@@ -32,7 +36,11 @@ impl RandomSource {
 const MAX_POINTS: usize = 20_000;
 
 /// Texts for fields, dialogs and the strip of typed points: sound ones and garbage.
-const TEXTS: [&str; 14] = [
+const TEXTS: [&str; 18] = [
+    "2, 12, 3",
+    "ground",
+    "upper",
+    "n3 0",
     "speed > 3",
     "12,3",
     "@2,-1",
@@ -52,7 +60,7 @@ const TEXTS: [&str; 14] = [
 /// Sends one random input. Returns its kind.
 pub(super) fn act(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
     let at = random.place();
-    let what = match random.below(16) {
+    let what = match random.below(19) {
         0 | 1 => {
             window.click(at);
             "click"
@@ -87,17 +95,55 @@ pub(super) fn act(window: &mut TestWindow, random: &mut RandomSource) -> &'stati
             use_panel(window, random);
             "side panel"
         }
-        11 => {
-            choose(window, random);
-            "menu"
+        11 | 12 => choose(window, random),
+        13 => {
+            click_elements(window, random);
+            "click on elements"
         }
-        _ => {
-            press(window, random);
-            "key"
+        14 => {
+            show_floor_plan(window, random);
+            "floor plan"
         }
+        _ => press(window, random),
     };
     window.harness.step();
     what
+}
+
+/// Clicks on up to three elements, with Shift all but the first: a command then has something to
+/// act on.
+fn click_elements(window: &mut TestWindow, random: &mut RandomSource) {
+    window.key(Modifiers::NONE, Key::V);
+    for number in 0..=random.below(3) {
+        let place = element(window.document().layout(), random);
+        let Some(place) = place else { return };
+        let at = window.at(place.x, place.y);
+        let modifiers = match number {
+            0 => Modifiers::NONE,
+            _ => Modifiers::SHIFT,
+        };
+        window.click_with(at, modifiers);
+    }
+}
+
+/// The place of a random node, or the start of a random path.
+fn element(layout: &Layout, random: &mut RandomSource) -> Option<Point<f64>> {
+    let (nodes, paths) = (layout.nodes.len(), layout.paths.len());
+    match random.below(2) {
+        0 if nodes > 0 => Some(layout.nodes.position_m(random.below(nodes) as u32)),
+        _ if paths > 0 => {
+            let (start, end) = layout.paths.get(random.below(paths)).ends()?;
+            Some((start + end) * 0.5)
+        }
+        _ => None,
+    }
+}
+
+/// Types the name of a floor plan, or removes it.
+fn show_floor_plan(window: &mut TestWindow, random: &mut RandomSource) {
+    let plans = ["hall.png@px-per-m=20,offset=0,0", "no such plan", ""];
+    window.key(Modifiers::COMMAND, Key::L);
+    window.answer(plans[random.below(plans.len())]);
 }
 
 /// Clicks in a tab of the side panel, and types a text that Enter, Tab or Escape ends. The tab of
@@ -124,8 +170,9 @@ fn use_panel(window: &mut TestWindow, random: &mut RandomSource) {
     window.key(Modifiers::NONE, ends[random.below(ends.len())]);
 }
 
-/// Chooses a random entry of a menu that has no shortcut, and answers its dialog, if any.
-fn choose(window: &mut TestWindow, random: &mut RandomSource) {
+/// Chooses a random entry of a menu that has no shortcut, and answers its dialog, if any. Returns
+/// its name.
+fn choose(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
     let groups = MENUS.iter().flat_map(|menu| menu.groups);
     let commands = groups.flat_map(|group| group.iter().copied());
     let commands: Vec<Command> = commands
@@ -139,6 +186,21 @@ fn choose(window: &mut TestWindow, random: &mut RandomSource) {
         let text = TEXTS[random.below(TEXTS.len())];
         window.harness.event(Event::Text(text.into()));
         window.key(Modifiers::NONE, Key::Enter);
+    }
+    if command == Command::Network {
+        make_network(window);
+    }
+    command.label()
+}
+
+/// Makes the network that the panel shows, as a layout of its own.
+fn make_network(window: &mut TestWindow) {
+    window.wait(|app| app.bottom.network.is_ready(&app.files) || app.bottom.view.is_none());
+    window.harness.run_steps(2);
+    let button = window.harness.query_by_label("Make the network");
+    if let Some(button) = button {
+        button.click();
+        window.harness.run_steps(3);
     }
 }
 
@@ -158,12 +220,18 @@ fn resize(window: &mut TestWindow, random: &mut RandomSource) {
     window.harness.set_size(Vec2::new(1200.0, 800.0));
 }
 
-/// Presses the shortcut of a random command.
-fn press(window: &mut TestWindow, random: &mut RandomSource) {
+/// Presses the shortcut of a random command, and answers its dialog, if any. Returns its name.
+fn press(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
     let (command, shortcut) = &SHORTCUTS[random.below(SHORTCUTS.len())];
-    if may_run(window, *command) {
-        window.key(shortcut.modifiers, shortcut.logical_key);
+    if !may_run(window, *command) {
+        return "key without effect";
     }
+    window.key(shortcut.modifiers, shortcut.logical_key);
+    let asks = matches!(command, Command::Array | Command::Fillet | Command::Rename);
+    if asks && random.below(2) == 0 {
+        window.answer(TEXTS[random.below(TEXTS.len())]);
+    }
+    command.label()
 }
 
 /// Returns `true` for a command that neither ends the run, nor reads or writes files, nor makes a

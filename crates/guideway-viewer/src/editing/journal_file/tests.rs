@@ -305,7 +305,7 @@ fn journal_is_as_private_as_the_layout() {
     let folder = tempfile::tempdir().unwrap();
     let site = folder.path().join("site.arrow");
     fs::write(&site, "").unwrap();
-    fs::set_permissions(&site, Permissions::from_mode(0o600)).unwrap();
+    fs::set_permissions(&site, fs::Permissions::from_mode(0o600)).unwrap();
     copy_base(&mut open(&site), &site).unwrap();
     for kind in ["journal", "base"] {
         let mode = fs::metadata(sibling(&site, kind))

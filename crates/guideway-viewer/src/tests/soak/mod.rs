@@ -4,6 +4,7 @@
 mod file_store;
 mod memory;
 mod saves;
+mod two_windows;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -47,6 +48,8 @@ struct Soak {
 #[derive(Default)]
 struct Record {
     counts: BTreeMap<&'static str, u64>,
+    /// Counts of the steps that can be undone, by name.
+    steps: BTreeMap<&'static str, u64>,
     /// Minutes since the start, and resident megabytes, at the end of each chapter.
     rests: Vec<(f64, f64)>,
 }
@@ -76,6 +79,14 @@ impl Record {
         let mut text = format!("seed {seed}, {minutes:.1} minutes\n");
         for (what, count) in &self.counts {
             let _ = writeln!(text, "{count:>9}  {what}");
+        }
+        let _ = writeln!(
+            text,
+            "{:>9}  events in all",
+            self.counts.values().sum::<u64>()
+        );
+        for (what, count) in &self.steps {
+            let _ = writeln!(text, "{count:>9}  step: {what}");
         }
         let growth_mb = memory::growth_mb(&self.at_rest_mb());
         let _ = writeln!(
@@ -137,6 +148,7 @@ impl Soak {
     /// Random input, or a random fault.
     fn act(&mut self) -> Result<(), String> {
         match self.random.below(400) {
+            7 => self.open_second_window()?,
             0 => self.save()?,
             1 => self.crash()?,
             2 | 3 => {
@@ -151,8 +163,14 @@ impl Soak {
             }
             6 => self.fail_to_save()?,
             _ => {
+                let before = self.window.app().document().map(Document::state);
                 let what = act(&mut self.window, &mut self.random);
                 self.record.count(what);
+                let document = self.window.app().document();
+                let document = document.filter(|document| Some(document.state()) != before);
+                if let Some(step) = document.and_then(|document| document.undo_redo_names().0) {
+                    *self.record.steps.entry(step).or_default() += 1;
+                }
             }
         }
         let file = self.file();
