@@ -19,6 +19,12 @@ pub(crate) enum Action {
     Command(Command),
     /// Edits the active document.
     Edit(EditTask),
+    /// Renames a vehicle type by this edit of the active document.
+    RenameVehicleType {
+        edit: EditTask,
+        old: String,
+        new: String,
+    },
     /// Opens the dialog of a level or a vehicle type.
     ShowGroup(GroupRequest),
     /// Selects the paths that match the query of the find panel.

@@ -112,6 +112,17 @@ impl App {
         }
     }
 
+    /// Renames a vehicle type in the document, and for new paths and routes.
+    pub(super) fn rename_vehicle_type(&mut self, edit: EditTask, old: &str, new: &str) {
+        self.edit(edit);
+        let template = &mut self.tools.template;
+        self.new_edges.rename_type(template, old, new);
+        let of_route = self.bottom.route.vehicle_type.as_mut();
+        if let Some(name) = of_route.filter(|name| *name == old) {
+            new.clone_into(name);
+        }
+    }
+
     /// Runs a command that arranges the selection, or asks for the number or name that it needs.
     pub(super) fn arrange(&mut self, command: Command, ctx: &Context) {
         self.tools.abort_drag();

@@ -34,6 +34,9 @@ impl App {
         match action {
             Action::Command(command) => self.perform(command, ctx),
             Action::Edit(task) => self.edit(task),
+            Action::RenameVehicleType { edit, old, new } => {
+                self.rename_vehicle_type(edit, &old, &new);
+            }
             Action::ShowGroup(request) => self.show_group(request),
             Action::SelectByQuery(mode) => self.select_by_query(mode),
             Action::Search => self.find.search(self.files.document(), repaint),

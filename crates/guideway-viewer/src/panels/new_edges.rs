@@ -19,7 +19,16 @@ pub(crate) struct NewEdgesPanel {
 }
 
 impl NewEdgesPanel {
-    /// Shows the window if it is open, at first at a point of the window, and changes the template.
+    /// Gives new paths the new name of a vehicle type.
+    pub(crate) fn rename_type(&mut self, template: &mut EdgeTemplate, old: &str, new: &str) {
+        let mut names = template.vehicle_types.iter_mut().map(|(name, _)| name);
+        if let Some(name) = names.find(|name| *name == old) {
+            new.clone_into(name);
+            (self.types, self.error) = (types_text(&template.vehicle_types), None);
+        }
+    }
+
+    /// Shows the open window, at first at a point of the window, and changes the template.
     pub(super) fn show(
         &mut self,
         ctx: &Context,

@@ -3,6 +3,9 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::{By, Queryable};
+use guideway_document::PropertyRef;
+use guideway_layout::Value;
+use guideway_scene::Table;
 
 use super::levels::two_levels;
 use super::services::lanes;
@@ -155,4 +158,44 @@ fn vehicle_types_are_added_changed_and_replaced() {
         (types(&mut window), paths(&mut window)),
         (vec!["crane".into()], vec!["crane".into()])
     );
+}
+
+#[test]
+fn a_renamed_vehicle_type_is_renamed_wherever_it_is_named() {
+    let mut layout = lanes(3);
+    layout.paths.vehicle_types_mut().set(0, &["fork", "tug"]);
+    layout.nodes.vehicle_types_mut().set(1, &["tug"]);
+    let mut window = layers(TestWindow::showing(layout));
+    window.edit(|document| {
+        let speed = PropertyRef {
+            of: Table::Paths,
+            name: "maxSpeed",
+            vehicle_type: Some("tug"),
+        };
+        document.set_property(speed, &[0].into_iter().collect(), Some(Value::Float(1.5)))
+    });
+    window.app().tools.template.vehicle_types = vec![("tug".into(), Some(2.0))];
+    click(&mut window, "Vehicle types");
+    window.harness.run_steps(20);
+    click(&mut window, "Change or delete the vehicle type tug");
+    fill(&mut window, "identifier", "tugger");
+    window.key(NONE, Key::Enter);
+    assert_eq!(types(&mut window), ["fork", "tugger"]);
+    let speed = |window: &mut TestWindow, name: &str| {
+        let entries = window.document().layout().paths.vehicle_types();
+        let entry = entries.entry_for(0, name)?;
+        entries.attributes.value(entry, "maxSpeed")?.number()
+    };
+    assert_eq!(speed(&mut window, "tugger"), Some(1.5));
+    let of_node = |window: &mut TestWindow| {
+        let entries = window.document().layout().nodes.vehicle_types();
+        entries.of(1).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(of_node(&mut window), ["tugger"]);
+    // What is drawn next does not bring the old name back.
+    let template = &window.app().tools.template;
+    assert_eq!(template.vehicle_types, [("tugger".to_owned(), Some(2.0))]);
+    window.key(Modifiers::COMMAND, Key::Z);
+    assert_eq!(speed(&mut window, "tug"), Some(1.5));
+    assert_eq!(of_node(&mut window), ["tug"]);
 }

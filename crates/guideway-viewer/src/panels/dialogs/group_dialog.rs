@@ -91,8 +91,12 @@ impl GroupDialog {
             Some(Answer::Delete) => open.is_deleting = true,
             Some(Answer::Ok) => match open.edit() {
                 Ok(edit) => {
+                    let renamed = open.renamed_type();
                     self.open = None;
-                    return Some(Action::Edit(edit));
+                    return Some(match renamed {
+                        Some((old, new)) => Action::RenameVehicleType { edit, old, new },
+                        None => Action::Edit(edit),
+                    });
                 }
                 Err(error) => (open.error, open.wants_focus) = (Some(error), true),
             },
@@ -222,6 +226,15 @@ impl OpenGroup {
         if let Some(error) = &self.error {
             ui.colored_label(ui.visuals().error_fg_color, error);
         }
+    }
+
+    /// The old and the new name of a vehicle type that the answer renames.
+    fn renamed_type(&self) -> Option<(String, String)> {
+        let Subject::VehicleType(Some(old)) = &self.subject else {
+            return None;
+        };
+        let new = self.id.trim();
+        (!self.is_deleting && new != old).then(|| (old.clone(), new.to_owned()))
     }
 
     /// The edit of the answer.
