@@ -118,6 +118,10 @@ fn click_elements(window: &mut TestWindow, random: &mut RandomSource) {
         let place = element(window.document().layout(), random);
         let Some(place) = place else { return };
         let at = window.at(place.x, place.y);
+        // Beside the canvas is the button that closes the file.
+        if !window.app().canvas.screen().rect.contains(at) {
+            return;
+        }
         let modifiers = match number {
             0 => Modifiers::NONE,
             _ => Modifiers::SHIFT,

@@ -218,7 +218,7 @@ fn new_layout_survives_a_crash() {
             .any(|layer| layer.has_unsaved_work())
     });
     recover(&mut window);
-    window.wait(|app| has_notice(app, "Recovered 1 step"));
+    window.wait(|app| has_notice(app, "Recovered 1 step") && app.document().is_some());
     assert_eq!(window.app().files.layers()[0].name(), "untitled.lif.json");
     assert_eq!(window.document().layout().paths.len(), 2);
     assert!(window.document().is_changed());

@@ -303,6 +303,7 @@ impl Soak {
         self.store.put(&self.first);
         let app = self.window.app();
         app.settings = crate::display_settings::DisplaySettings::default();
+        app.files.layers_mut()[0].is_visible = true;
         app.reload(0, true);
         self.window.wait(|app| !app.files.layers()[0].is_loading());
         let paths = self.first.paths.len();
