@@ -6,6 +6,7 @@ use super::paint_draw_list::color32;
 use super::paint_gesture::SELECTION_COLOR;
 use super::screen::Screen;
 use crate::display_settings::DisplaySettings;
+use crate::language::t;
 use crate::tools::{FORMS, TypedText};
 
 const TEXT_POINTS: f32 = 15.0;
@@ -34,7 +35,7 @@ pub(super) fn paint_typed(
     painter.text(left, Align2::LEFT_CENTER, text, font, ink);
     let (note, color) = match &typed.error {
         Some(error) => (error.as_str(), ERROR_COLOR),
-        None => (FORMS, ink.gamma_multiply(0.7)),
+        None => (t(FORMS), ink.gamma_multiply(0.7)),
     };
     let font = FontId::proportional(HINT_POINTS);
     let galley = painter.layout(note.to_owned(), font, color, SIZE.x);

@@ -5,6 +5,8 @@
 //! English singular, and singular and plural in German. A thread has the language of the thread
 //! that started it.
 
+mod keys;
+
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::fmt::Display;
@@ -16,6 +18,8 @@ use std::time::Duration;
 use guideway_document::text_format;
 use guideway_layout::Direction;
 use serde::{Deserialize, Serialize};
+
+pub(crate) use keys::shortcut_text;
 
 /// A language of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -189,6 +193,7 @@ mod tests {
     use super::*;
     use crate::command::MENUS;
     use crate::panels::title_of;
+    use crate::tools::FORMS;
 
     #[test]
     fn texts_follow_the_language_of_the_thread() {
@@ -293,5 +298,28 @@ mod tests {
         for menu in &MENUS {
             assert!(GERMAN.contains_key(menu.name), "{}", menu.name);
         }
+        assert!(GERMAN.contains_key(FORMS) && GERMAN.contains_key("paths per pixel"));
+    }
+
+    #[test]
+    fn each_step_of_undo_is_in_the_table() {
+        let edits = concat!(env!("CARGO_MANIFEST_DIR"), "/../guideway-document/src/edit");
+        let mut folders = vec![Path::new(edits).to_owned()];
+        let mut steps = Vec::new();
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else {
+                    let text = fs::read_to_string(path).unwrap();
+                    let code = text.split("#[cfg(test)]").next().unwrap();
+                    steps.extend(calls(code, "self.perform("));
+                }
+            }
+        }
+        assert!(steps.len() > 15, "{steps:?}");
+        steps.retain(|step| !GERMAN.contains_key(step.as_str()));
+        assert!(steps.is_empty(), "not in german.tsv: {steps:?}");
     }
 }

@@ -9,7 +9,7 @@ use super::toolbar;
 use crate::action::Action;
 use crate::command::{Command, MENUS, Menu, shortcuts_of};
 use crate::files::FileWriter;
-use crate::language::t;
+use crate::language::{shortcut_text, t};
 use crate::services::Job;
 
 /// Interval of progress updates. On a software renderer a frame takes a tenth of a second of the
@@ -67,7 +67,7 @@ pub(crate) fn command_list(
         for &command in *group {
             let mut button = Button::new(state.label(command)).selected(state.is_on(command));
             if let Some(shortcut) = shortcuts_of(command).next() {
-                button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+                button = button.shortcut_text(shortcut_text(ui.ctx(), shortcut));
             }
             if ui.add_enabled(state.is_possible(command), button).clicked() {
                 chosen = Some(Action::Command(command));

@@ -114,8 +114,9 @@ impl SidePanel<'_> {
 
     fn show_tabs(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 1.0;
-            ui.spacing_mut().button_padding.x = 5.0;
+            // The names of all languages fit into one row of the panel's first width.
+            ui.spacing_mut().item_spacing.x = 0.0;
+            ui.spacing_mut().button_padding.x = 3.5;
             for tab in SideTab::ALL {
                 let title = match tab {
                     SideTab::Findings => FindingsPanel::title(self.files),

@@ -9,7 +9,7 @@ use crate::action::Action;
 use crate::backdrop::FloorPlanLayer;
 use crate::command::{Command, shortcuts_of};
 use crate::files::OpenFiles;
-use crate::language::t;
+use crate::language::{shortcut_text, t};
 
 /// Commands of the card.
 const COMMANDS: [Command; 3] = [Command::NewLayout, Command::Open, Command::ExampleSite];
@@ -62,7 +62,7 @@ fn content(ui: &mut Ui, recent: &[(PathBuf, bool)]) -> Option<Action> {
     for command in COMMANDS {
         let mut button = Button::new(command.label()).min_size([WIDTH, 0.0].into());
         if let Some(shortcut) = shortcuts_of(command).next() {
-            button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+            button = button.shortcut_text(shortcut_text(ui.ctx(), shortcut));
         }
         if ui.add(button).clicked() {
             action = Some(Action::Command(command));

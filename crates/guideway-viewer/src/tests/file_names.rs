@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
 use super::services::{TestServices, lanes};
@@ -174,4 +174,19 @@ fn window_does_not_wait_for_the_disk_of_a_file_to_write() {
         *window.disk.on_window.lock().unwrap(),
         ["looking at a file"]
     );
+}
+
+#[test]
+fn typing_goes_on_behind_the_suggested_name() {
+    let disk = TestServices::with([("site.arrow", lanes(2))]);
+    let mut window = TestWindow::open(&disk, &["site.arrow"], Some("cpu"));
+    window.wait(|app| app.document().is_some());
+    // An empty line leaves its cursor at the start.
+    window.key(CTRL, Key::O);
+    window.key(NONE, Key::Escape);
+    window.key(CTRL_SHIFT, Key::S);
+    window.harness.run_steps(2);
+    window.harness.event(Event::Text("2".into()));
+    window.harness.run_steps(2);
+    assert_eq!(window.app().dialogs.prompt.text(), Some("site.arrow2"));
 }

@@ -154,6 +154,8 @@ impl OpenPrompt {
         let field = field.labelled_by(title.id);
         if std::mem::take(&mut self.wants_focus) {
             field.request_focus();
+            // egui keeps the place of the cursor in the last text.
+            place_cursor_at_end(ui.ctx(), id, &self.text);
         }
         if field.changed() {
             (self.completion, self.problem) = (Completion::default(), None);

@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Context, Grid, ScrollArea, Ui, Vec2, Window};
 
 use crate::command::{MENUS, shortcuts_of};
-use crate::language::t;
+use crate::language::{shortcut_text, t};
 
 /// Height at which all shortcuts show without scrolling, in points.
 const HEIGHT: f32 = 740.0;
@@ -50,7 +50,7 @@ fn content(ui: &mut Ui) {
     grid.show(ui, |ui| {
         for (row, command) in left.iter().enumerate() {
             for command in [Some(command), right.get(row)].into_iter().flatten() {
-                let keys = shortcuts_of(**command).map(|keys| ui.ctx().format_shortcut(keys));
+                let keys = shortcuts_of(**command).map(|keys| shortcut_text(ui.ctx(), keys));
                 ui.monospace(keys.collect::<Vec<_>>().join(", "));
                 ui.label(command.label());
             }

@@ -43,7 +43,7 @@ impl TextDialog {
         let open = self.open.as_mut()?;
         let (mut is_answered, mut is_cancelled) = (false, false);
         let modal = Modal::new(Id::unique("text question")).show(ctx, |ui| {
-            ui.strong(open.question.command.label());
+            ui.strong(open.question.command.name());
             let label = ui.label(&open.question.label);
             let field = TextEdit::singleline(&mut open.question.text).desired_width(280.0);
             let field = ui.add(field).labelled_by(label.id);

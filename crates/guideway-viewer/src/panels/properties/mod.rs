@@ -29,8 +29,10 @@ use crate::files::{Layer, OpenFiles};
 use crate::language::{say, t};
 use crate::units::{Units, shown_unit, units};
 
-/// Width of the names beside the fields, in points.
+/// Least width of the names beside the fields, in points.
 const NAME_WIDTH: f32 = 130.0;
+/// Greatest width: that of the longest name with its unit.
+const MAX_NAME_WIDTH: f32 = 200.0;
 /// Width of the button behind a field, in points.
 const BUTTON_WIDTH: f32 = 30.0;
 
@@ -158,8 +160,9 @@ impl PropertiesPanel {
             ));
         }
         let element = shown.of.element();
+        let name_width = (0.5 * ui.available_width()).clamp(NAME_WIDTH, MAX_NAME_WIDTH);
         let grid = Grid::new(("properties", element)).num_columns(2);
-        grid.min_col_width(NAME_WIDTH).show(ui, |ui| {
+        grid.min_col_width(name_width).show(ui, |ui| {
             self.show_facts(ui, shown, actions);
             let added = self.added.clone();
             let added = added.iter().filter(|(of, _)| *of == shown.of);

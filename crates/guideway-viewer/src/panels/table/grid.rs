@@ -231,6 +231,9 @@ fn title_of(column: &Column, layout: &Layout, of: Table) -> String {
         Column::End => t("to node"),
         Column::Length => t("drawn length"),
         Column::VehicleType => t("vehicle types"),
+        Column::Direction => t("direction"),
+        Column::Level => t("level"),
+        Column::Nodes => t("nodes"),
         column => column.name(),
     };
     match column.unit(layout, of) {
