@@ -1,11 +1,13 @@
 //! Paints the canvas from its parts, bottom first: background, floor plan, grid, swept areas,
 //! layouts, marks, gesture, scale bar, legend, messages.
 
+use std::borrow::Cow;
+
 use eframe::egui::{
     Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureId, Vec2, pos2,
 };
 use guideway_document::decorations::{
-    Corner, DecorationStyle, MAX_MARKED, handles, legend, outline, scale_bar,
+    Corner, DecorationStyle, handles, legend, outline, scale_bar,
 };
 use guideway_document::{Document, PathSet};
 use guideway_scene::{Legend, View};
@@ -28,6 +30,7 @@ use crate::compare::Changed;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::{Layer, OpenFiles};
+use crate::language::t;
 use crate::network_draft::Drafted;
 use crate::route::FoundRoute;
 use crate::tools::{Gesture, OtherHit, Tool, ToolContext, Tools};
@@ -67,6 +70,18 @@ pub(crate) fn shown_colors<'a>(
     }
 }
 
+/// A legend with its title in the language of the window, if the title is not a name of the file.
+fn translated(legend: &Legend) -> Cow<'_, Legend> {
+    let title = t(&legend.column);
+    match title == legend.column {
+        true => Cow::Borrowed(legend),
+        false => Cow::Owned(Legend {
+            column: title.to_owned(),
+            ..legend.clone()
+        }),
+    }
+}
+
 impl CanvasPainter<'_> {
     /// Paints all parts.
     pub(crate) fn paint(&self, painter: &Painter) {
@@ -98,8 +113,10 @@ impl CanvasPainter<'_> {
         list(scale_bar(&self.view, &style, Corner::LowerLeft));
         let colors = shown_colors(self.files, self.settings);
         let corner = Corner::UpperLeft;
-        let colors =
-            colors.and_then(|colors| legend(colors, self.view.size(), 0.0, corner, &style));
+        let colors = colors.and_then(|colors| {
+            let colors = translated(colors);
+            legend(&colors, self.view.size(), 0.0, corner, &style)
+        });
         if let Some((colors, _)) = colors {
             list(colors);
         }
@@ -213,9 +230,7 @@ impl CanvasPainter<'_> {
             let lines = outline(document, &PathSet::from_iter([hit.path]), view);
             paint_glowing(painter, &lines, hovered, |pixel| screen.point(pixel));
         }
-        if let Some(document) = document {
-            paint_rings(painter, screen, &selected_symbols(document, view));
-        }
+        paint_rings(painter, &overlay.symbols, to_screen);
         if let (Tool::Points, Some(document)) = (self.tools.tool(), document) {
             paint_handles(painter, screen, &handles(document, view));
         }
@@ -320,20 +335,4 @@ impl CanvasPainter<'_> {
             painter.galley(corner, galley, color);
         }
     }
-}
-
-/// Positions of the selected nodes and stations in a view, in pixels; the first ones, if there are
-/// too many to tell apart.
-fn selected_symbols(document: &Document, view: &View) -> Vec<Point<f64>> {
-    let selected = document.selected();
-    let nodes = selected
-        .nodes
-        .iter()
-        .map(|node| document.node_position_m(node));
-    let stations = selected.stations.iter();
-    let stations = stations.filter_map(|station| document.station_position_m(station));
-    let bounds = view.world_bounds();
-    let visible = nodes.chain(stations).filter(|at_m| bounds.contains(*at_m));
-    let first = visible.take(MAX_MARKED);
-    first.map(|at_m| view.pixel_from_world(at_m)).collect()
 }

@@ -64,10 +64,14 @@ pub(super) fn paint_glowing(
 }
 
 /// Paints rings around selected nodes and stations.
-pub(super) fn paint_rings(painter: &Painter, screen: Screen, at_px: &[Point<f64>]) {
+pub(super) fn paint_rings(
+    painter: &Painter,
+    at_px: &[Point<f64>],
+    to_screen: impl Fn(Point<f64>) -> Pos2,
+) {
+    let stroke = Stroke::new(MIN_OUTLINE_WIDTH, SELECTION_COLOR);
     for &at_px in at_px {
-        let stroke = Stroke::new(MIN_OUTLINE_WIDTH, SELECTION_COLOR);
-        painter.circle_stroke(screen.point(at_px), RING_RADIUS, stroke);
+        painter.circle_stroke(to_screen(at_px), RING_RADIUS, stroke);
     }
 }
 

@@ -6,8 +6,9 @@ use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 use guideway_document::Document;
-use guideway_document::decorations::{MarkOptions, Marks, Outline, marks, outline};
+use guideway_document::decorations::{MAX_MARKED, MarkOptions, Marks, Outline, marks, outline};
 use guideway_scene::View;
+use guideway_spline::Point;
 
 use crate::background::{BackgroundTask, RepaintHandle};
 
@@ -33,6 +34,8 @@ pub(crate) struct OverlayContent {
     pub(crate) view: View,
     pub(crate) marks: Marks,
     pub(crate) selection: Outline,
+    /// Places of selected nodes and stations, in pixels.
+    pub(crate) symbols: Vec<Point<f64>>,
     elapsed: Duration,
 }
 
@@ -125,7 +128,24 @@ impl OverlayContent {
             view: input.view,
             marks: marks(document, &input.view, &input.options),
             selection: outline(document, document.selection(), &input.view),
+            symbols: selected_symbols(document, &input.view),
             elapsed: started.elapsed(),
         }
     }
+}
+
+/// Positions of the selected nodes and stations in a view, in pixels; the first ones, if there are
+/// too many to tell apart.
+fn selected_symbols(document: &Document, view: &View) -> Vec<Point<f64>> {
+    let selected = document.selected();
+    let nodes = selected
+        .nodes
+        .iter()
+        .map(|node| document.node_position_m(node));
+    let stations = selected.stations.iter();
+    let stations = stations.filter_map(|station| document.station_position_m(station));
+    let bounds = view.world_bounds();
+    let visible = nodes.chain(stations).filter(|at_m| bounds.contains(*at_m));
+    let first = visible.take(MAX_MARKED);
+    first.map(|at_m| view.pixel_from_world(at_m)).collect()
 }

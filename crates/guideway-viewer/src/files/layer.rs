@@ -96,8 +96,7 @@ impl Layer {
 
     /// The file name without its folder.
     pub(crate) fn name(&self) -> String {
-        let name = self.path.file_name().unwrap_or(self.path.as_os_str());
-        shown_path(Path::new(name))
+        name_of(&self.path)
     }
 
     /// The document, unless it is not loaded or an edit has it.
@@ -294,4 +293,10 @@ impl Layer {
     pub(crate) fn is_at(&self, path: &Path) -> bool {
         self.path == path
     }
+}
+
+/// The name of a file without its folder.
+pub(super) fn name_of(file: &Path) -> String {
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    shown_path(Path::new(name))
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use eframe::egui::Context;
 use guideway_document::{Document, ReplayProgress};
 
-use super::layer::Layer;
+use super::layer::{Layer, name_of};
 use super::layer_context::LayerContext;
 use super::layer_event::LayerEvent;
 use super::loader::{Loaded, Loader};
@@ -61,11 +61,12 @@ impl Layer {
         context: &LayerContext,
         events: &mut Vec<LayerEvent>,
     ) {
-        let name = self.name();
+        let path = &self.path;
+        let name = || name_of(path);
         let LayerContext {
             services, repaint, ..
         } = context;
-        for event in self.picture.poll(ctx, &name, services, repaint) {
+        for event in self.picture.poll(ctx, name, services, repaint) {
             match event {
                 PictureEvent::Shown { is_first } => {
                     self.error = None;

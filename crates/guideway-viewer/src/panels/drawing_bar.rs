@@ -1,6 +1,6 @@
 //! The drawing bar: current level, snapping, grid step, and the properties of new paths.
 
-use eframe::egui::{ComboBox, DragValue, Id, Ui};
+use eframe::egui::{ComboBox, DragValue, Id, Label, Ui};
 use guideway_document::Document;
 
 use super::new_edges::NewEdgesPanel;
@@ -32,7 +32,7 @@ impl DrawingBar<'_> {
                 show_level(ui, document, &mut actions);
                 ui.separator();
             }
-            ui.label(t("Snap to"));
+            ui.add(Label::new(t("Snap to")).selectable(false));
             ui.checkbox(&mut self.tools.snaps.to_objects, t("paths"))
                 .on_hover_text(t(
                     "Ends, middles, crossings, tangents and perpendiculars; Alt snaps to nothing",
@@ -56,9 +56,11 @@ impl DrawingBar<'_> {
             if button.clicked() {
                 self.new_edges.is_open ^= true;
             }
-            let (at, document) = (button.rect.left_bottom(), self.files.document());
-            let template = &mut self.tools.template;
-            self.new_edges.show(ui.ctx(), at, document, template);
+            if self.new_edges.is_open {
+                let (at, document) = (button.rect.left_bottom(), self.files.document());
+                let template = &mut self.tools.template;
+                self.new_edges.show(ui.ctx(), at, document, template);
+            }
         });
         actions
     }
@@ -94,7 +96,7 @@ fn show_level(ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
     let name = |row: u32| levels[row as usize].name_or_id();
     let shown = document.level();
     let text = shown.map_or(t("all"), name);
-    let label = ui.label(t("Level"));
+    let label = ui.add(Label::new(t("Level")).selectable(false));
     ComboBox::from_id_salt("level")
         .selected_text(text)
         .show_ui(ui, |ui| {

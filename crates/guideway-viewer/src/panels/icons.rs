@@ -1,6 +1,9 @@
 //! Icons of the commands: lines in a square of 16 x 16, drawn in the color of the text.
 
-use eframe::egui::{Painter, Pos2, Rect, Shape, Stroke, Vec2};
+use std::sync::Arc;
+
+use eframe::egui::epaint::Tessellator;
+use eframe::egui::{Color32, Id, Mesh, Pos2, Rect, Shape, Stroke, Ui, Vec2};
 
 use crate::command::Command;
 
@@ -218,16 +221,52 @@ pub(super) fn lines(command: Command) -> Option<&'static [Line]> {
     })
 }
 
-/// Paints the icon of a command into a square. Returns `false` if it has none.
-pub(super) fn paint(painter: &Painter, command: Command, square: Rect, stroke: Stroke) -> bool {
-    let Some(lines) = lines(command) else {
-        return false;
-    };
-    let side = square.width();
-    let at = |[x, y]: &[f32; 2]| -> Pos2 { square.min + Vec2::new(*x, *y) * (side / SIDE) };
-    let stroke = Stroke::new((LINE * side).max(1.0), stroke.color);
-    for line in lines {
-        painter.add(Shape::line(line.iter().map(at).collect(), stroke));
+/// An icon in its square.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Icon {
+    pub(super) command: Command,
+    pub(super) square: Rect,
+    pub(super) color: Color32,
+}
+
+/// Icons as triangles, which stay the same from frame to frame.
+struct PaintedIcons {
+    icons: Vec<Icon>,
+    px_per_point: f32,
+    mesh: Arc<Mesh>,
+}
+
+/// Paints icons. Their triangles are made anew only when one has changed: that takes longer than
+/// all else about a button.
+pub(super) fn paint(ui: &Ui, id: Id, icons: Vec<Icon>) {
+    let px_per_point = ui.pixels_per_point();
+    let painted = ui.data(|data| data.get_temp::<Arc<PaintedIcons>>(id));
+    let is_same =
+        |last: &Arc<PaintedIcons>| last.px_per_point == px_per_point && last.icons == icons;
+    if let Some(painted) = painted.filter(is_same) {
+        ui.painter().add(Shape::Mesh(Arc::clone(&painted.mesh)));
+        return;
     }
-    true
+    let options = ui.ctx().tessellation_options(|options| *options);
+    let mut tessellator = Tessellator::new(px_per_point, options, [1, 1], Vec::new());
+    let mut mesh = Mesh::default();
+    for shape in icons.iter().flat_map(shapes) {
+        tessellator.tessellate_shape(shape, &mut mesh);
+    }
+    let mesh = Arc::new(mesh);
+    ui.painter().add(Shape::Mesh(Arc::clone(&mesh)));
+    let painted = PaintedIcons {
+        icons,
+        px_per_point,
+        mesh,
+    };
+    ui.data_mut(|data| data.insert_temp(id, Arc::new(painted)));
+}
+
+fn shapes(icon: &Icon) -> impl Iterator<Item = Shape> {
+    let (min, side) = (icon.square.min, icon.square.width());
+    let at = move |[x, y]: &[f32; 2]| -> Pos2 { min + Vec2::new(*x, *y) * (side / SIDE) };
+    let stroke = Stroke::new((LINE * side).max(1.0), icon.color);
+    let lines = lines(icon.command).unwrap_or_default().iter();
+    lines.map(move |line| Shape::line(line.iter().map(at).collect(), stroke))
 }

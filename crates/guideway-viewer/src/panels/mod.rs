@@ -7,6 +7,7 @@ mod bottom_panel;
 mod command_state;
 mod compare_panel;
 pub(crate) mod dialogs;
+mod digits;
 mod display_panel;
 mod drawing_bar;
 mod find_panel;

@@ -8,7 +8,7 @@ use crate::files::{Layer, OpenFiles};
 use crate::language::{say, t};
 use crate::selection::{ExactEdit, counts};
 
-/// Shows the head, which always takes the same space.
+/// Shows the head: without a selection its summary alone.
 pub(super) fn show(
     ui: &mut Ui,
     files: &OpenFiles,
@@ -23,12 +23,14 @@ pub(super) fn show(
         None => t("No layout is open").to_owned(),
     };
     ui.add(Label::new(text).truncate());
-    // While an edit has the document, further edits wait for it.
-    let is_idle = match files.document() {
-        Some(document) => document.selected().is_empty(),
-        None => files.active().is_none(),
+    // While an edit has the document, the fields stay: further edits wait for it.
+    exact.is_shown = match files.document() {
+        Some(document) => !document.selected().is_empty(),
+        None => exact.is_shown && files.active().is_some(),
     };
-    ui.add_enabled_ui(!is_idle, |ui| show_exact_edits(ui, exact, actions));
+    if exact.is_shown {
+        show_exact_edits(ui, exact, actions);
+    }
 }
 
 /// Moves, copies and rotations of the selection by numbers.

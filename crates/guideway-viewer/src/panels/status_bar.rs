@@ -4,6 +4,7 @@
 use eframe::egui::{Label, Ui};
 use guideway_document::{Document, Hit, text_format};
 
+use super::digits::digits;
 use super::selection_panel::summary;
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
@@ -30,17 +31,17 @@ impl StatusBar<'_> {
         ui.horizontal(|ui| {
             self.show_position(ui);
             if let Some(finding) = self.finding() {
-                ui.add(Label::new(finding).truncate());
+                ui.add(Label::new(finding).truncate().selectable(false));
                 return;
             }
             let document = self.files.document();
             if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {
                 let hovered = hovered(document, hit);
-                ui.add(Label::new(hovered).truncate());
+                ui.add(Label::new(hovered).truncate().selectable(false));
                 return;
             }
             if let Some(text) = self.other_hit.and_then(|hit| self.hovered_elsewhere(hit)) {
-                ui.add(Label::new(text).truncate());
+                ui.add(Label::new(text).truncate().selectable(false));
                 return;
             }
             let selected = document.map(Document::selected);
@@ -54,7 +55,11 @@ impl StatusBar<'_> {
                 ui.label(t("Zoom in to show all marks"));
                 ui.separator();
             }
-            ui.add(Label::new(tool_hint(self.tools.tool())).truncate());
+            ui.add(
+                Label::new(tool_hint(self.tools.tool()))
+                    .truncate()
+                    .selectable(false),
+            );
         });
     }
 
@@ -91,12 +96,10 @@ impl StatusBar<'_> {
             || "x           y          ".to_owned(),
             |at_m| format!("x {:>9.3} y {:>9.3} m", at_m.x, at_m.y),
         );
-        ui.monospace(position)
-            .on_hover_text(t("Position of the pointer"));
+        digits(ui, &position).on_hover_text(t("Position of the pointer"));
         ui.separator();
         let scale = scale_text(view.px_per_m() / self.canvas.px_per_point());
-        ui.monospace(scale)
-            .on_hover_text(t("Scale on a screen of 96 points per inch"));
+        digits(ui, &scale).on_hover_text(t("Scale on a screen of 96 points per inch"));
         ui.separator();
     }
 }

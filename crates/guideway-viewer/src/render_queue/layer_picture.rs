@@ -140,11 +140,11 @@ impl LayerPicture {
         self.requested.as_ref().is_none_or(is_shown) && !self.renderer.is_busy()
     }
 
-    /// Takes finished pictures; `name` names the file in the texture and in notices.
+    /// Takes finished pictures; `name` gives the name of the file, for the texture and for notices.
     pub(crate) fn poll(
         &mut self,
         ctx: &Context,
-        name: &str,
+        name: impl Fn() -> String,
         services: &Arc<dyn AppServices>,
         repaint: &RepaintHandle,
     ) -> Vec<PictureEvent> {
@@ -153,7 +153,7 @@ impl LayerPicture {
             match self.renderer.try_event() {
                 Ok(RenderEvent::Picture(picture)) => {
                     let is_first = self.shown.is_none();
-                    self.show(ctx, name, *picture);
+                    self.show(ctx, &name, *picture);
                     events.push(PictureEvent::Shown { is_first });
                 }
                 Ok(RenderEvent::NeedsScene) => events.push(PictureEvent::NeedsScene),
@@ -163,7 +163,7 @@ impl LayerPicture {
                 Err(TryRecvError::Disconnected) => {
                     events.push(PictureEvent::FellBack(say!(
                         "an internal error stopped rendering {name}. Switched to `{other}`",
-                        name,
+                        name = name(),
                         other = FALLBACK_METHOD
                     )));
                     let (services, repaint) = (Arc::clone(services), Arc::clone(repaint));
@@ -177,7 +177,7 @@ impl LayerPicture {
         }
     }
 
-    fn show(&mut self, ctx: &Context, name: &str, picture: Picture) {
+    fn show(&mut self, ctx: &Context, name: impl Fn() -> String, picture: Picture) {
         let options = TextureOptions::LINEAR;
         let number = self.shown.as_ref().map_or(0, |shown| shown.number) + 1;
         let earlier = self.shown.take().map(|shown| shown.texture);
@@ -187,7 +187,7 @@ impl LayerPicture {
                 ShownTexture::Uploaded(texture)
             }
             (Pixels::InMemory(image), _) => {
-                ShownTexture::Uploaded(ctx.load_texture(name, image, options))
+                ShownTexture::Uploaded(ctx.load_texture(name(), image, options))
             }
             (Pixels::OnDevice(picture), _) => match self.device.register(picture) {
                 Some(texture) => ShownTexture::OnDevice(texture),

@@ -11,6 +11,8 @@ pub(crate) struct ExactEdit {
     pub(crate) by_y_m: f64,
     pub(crate) angle_deg: f64,
     pub(crate) copies: u32,
+    /// True if there is something to move.
+    pub(crate) is_shown: bool,
 }
 
 impl Default for ExactEdit {
@@ -20,6 +22,7 @@ impl Default for ExactEdit {
             by_y_m: 0.0,
             angle_deg: 90.0,
             copies: 1,
+            is_shown: false,
         }
     }
 }

@@ -27,6 +27,9 @@ fn panel_keeps_still_while_pointer_and_selection_change() {
     let long = "a name that is far longer than the side panel is wide, and then some more of it";
     layout.paths.set_ids(&[(2, long)]);
     let mut window = TestWindow::showing(layout);
+    let at = window.at(5.0, 8.0);
+    window.click(at);
+    window.harness.run_steps(3);
     let before = (canvas_width(&mut window), place_of(&window, "Move"));
     for y in [0.0, 4.0, 6.0] {
         let at = window.at(5.0, y);

@@ -1,0 +1,27 @@
+//! A label for numbers that change from frame to frame: each sign is laid out once and cached,
+//! while a text that differs in one digit would be shaped anew as a whole, which takes a quarter of
+//! a frame.
+
+use eframe::egui::{Response, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
+
+/// Shows a line of monospaced signs, without those that join or combine.
+pub(super) fn digits(ui: &mut Ui, text: &str) -> Response {
+    let font = TextStyle::Monospace.resolve(ui.style());
+    let color = ui.visuals().text_color();
+    let layout = |ui: &Ui, sign: char| {
+        let painter = ui.painter();
+        painter.layout_no_wrap(sign.to_string(), font.clone(), color)
+    };
+    let zero = layout(ui, '0').size();
+    // Whole pixels keep the signs at equal distances.
+    let scale = ui.pixels_per_point();
+    let advance = (zero.x * scale).round() / scale;
+    let width = advance * text.chars().count() as f32;
+    let (rect, response) = ui.allocate_exact_size(vec2(width, zero.y), Sense::hover());
+    for (number, sign) in text.chars().enumerate().filter(|(_, sign)| *sign != ' ') {
+        let at = rect.min + vec2(advance * number as f32, 0.0);
+        ui.painter().galley(at, layout(ui, sign), color);
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, ui.is_enabled(), text));
+    response
+}
