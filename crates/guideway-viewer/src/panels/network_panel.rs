@@ -45,15 +45,16 @@ pub(super) fn show(
     show_result(ui, files, draft, actions);
 }
 
-fn length(ui: &mut Ui, value_m: &mut f64) {
+/// A field with its label inside, so that a new line does not come between them.
+fn length(ui: &mut Ui, label: &str, value_m: &mut f64) {
     let field = DragValue::new(value_m).range(LENGTHS_M).speed(0.005);
-    ui.add(field.max_decimals(3).suffix(" m"));
+    let field = field.prefix(format!("{label} ")).suffix(" m");
+    ui.add(field.max_decimals(3));
 }
 
 fn show_lengths(ui: &mut Ui, draft: &mut NetworkDraft) {
     let options = &mut draft.options;
-    ui.label(t("Join ends within"));
-    length(ui, &mut options.weld_m);
+    length(ui, t("Join ends within"), &mut options.weld_m);
     ui.label(t("Cut at"));
     ui.checkbox(&mut options.split_junctions, t("junctions"))
         .on_hover_text(t("Where the end of a line meets the middle of another"));
@@ -63,11 +64,10 @@ fn show_lengths(ui: &mut Ui, draft: &mut NetworkDraft) {
         .on_hover_text(t("Chains of short lines become curves"));
     let mut smooth_m = options.smooth_m.unwrap_or(SMOOTH_M);
     if is_smooth {
-        length(ui, &mut smooth_m);
+        length(ui, "", &mut smooth_m);
     }
     options.smooth_m = is_smooth.then_some(smooth_m);
-    ui.label(t("Notes reach"));
-    length(ui, &mut options.reach_m);
+    length(ui, t("Notes reach"), &mut options.reach_m);
 }
 
 /// Shows a menu of the layers: which are used, at which speed and direction.
