@@ -218,12 +218,15 @@ impl CanvasPainter<'_> {
         let stroke = |color| Stroke::new(MIN_OUTLINE_WIDTH.max((radius_px / scale) as f32), color);
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
         paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
-        paint_glowing(painter, &overlay.selection, selected, to_screen);
         if let Gesture::Move { by_m, .. } = self.tools.gesture() {
+            // What moves stands out by itself, and a glow takes as long as both lines.
+            paint_outline(painter, &overlay.selection, selected, to_screen);
             let by = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
             paint_outline(painter, &overlay.selection, hovered, |pixel| {
                 to_screen(pixel) + by
             });
+        } else {
+            paint_glowing(painter, &overlay.selection, selected, to_screen);
         }
         let document = layer.document();
         if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {

@@ -16,6 +16,9 @@ pub(crate) struct AboutDialog {
 impl AboutDialog {
     /// Shows the dialog if it is open.
     pub(crate) fn show(&mut self, ctx: &Context, adapter: &str, method: &str) {
+        if !self.is_open {
+            return;
+        }
         let window = Window::new(t("About Guideway")).open(&mut self.is_open);
         let window = window.pivot(Align2::CENTER_CENTER);
         let window = window.default_pos(ctx.content_rect().center());

@@ -28,7 +28,10 @@ pub(crate) fn show(
     corner: Pos2,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
-    let mut is_open = editor.is_open && !plan.is_empty();
+    if !editor.is_open {
+        return actions;
+    }
+    let mut is_open = !plan.is_empty();
     let window = Window::new(t("Floor plan")).open(&mut is_open);
     window
         .resizable(false)

@@ -19,6 +19,9 @@ pub(crate) struct SettingsDialog {
 impl SettingsDialog {
     /// Shows the dialog if it is open; changes apply at once.
     pub(crate) fn show(&mut self, ctx: &Context, settings: &mut DisplaySettings) -> Option<Action> {
+        if !self.is_open {
+            return None;
+        }
         let before = settings.theme;
         let window = Window::new(t("Settings")).open(&mut self.is_open);
         let window = window.pivot(Align2::CENTER_CENTER);
