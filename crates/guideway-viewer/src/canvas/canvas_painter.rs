@@ -219,7 +219,7 @@ impl CanvasPainter<'_> {
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
         paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
         if let Gesture::Move { by_m, .. } = self.tools.gesture() {
-            // What moves stands out by itself, and a glow takes as long as both lines.
+            // A moving selection stands out by itself, and a glow takes as long as both lines.
             paint_outline(painter, &overlay.selection, selected, to_screen);
             let by = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
             paint_outline(painter, &overlay.selection, hovered, |pixel| {

@@ -13,6 +13,8 @@ pub(super) const MIN_OUTLINE_WIDTH: f32 = 2.5;
 /// Width of the glow of an outline on both sides together, in points.
 const GLOW_WIDTH: f32 = 8.0;
 const GLOW_OPACITY: f32 = 0.25;
+/// Most lines that glow: more stand out by themselves, and each takes a second line.
+const MAX_GLOWING: usize = 64;
 /// Radius of the ring around a selected node or station, in points: outside of the largest symbol.
 const RING_RADIUS: f32 = 11.0;
 /// Side of the square of a handle, in points.
@@ -55,7 +57,9 @@ pub(super) fn paint_glowing(
     stroke: Stroke,
     to_screen: impl Fn(Point<f64>) -> Pos2,
 ) {
-    if let Outline::Lines(_) = outline {
+    if let Outline::Lines(lines) = outline
+        && lines.len() <= MAX_GLOWING
+    {
         let glow = stroke.color.gamma_multiply(GLOW_OPACITY);
         let wide = Stroke::new(stroke.width + GLOW_WIDTH, glow);
         paint_outline(painter, outline, wide, &to_screen);

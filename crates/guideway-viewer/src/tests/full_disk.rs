@@ -189,7 +189,7 @@ fn save_on_a_full_disk() {
     disk.window.key(NONE, Key::R);
     disk.window.harness.run_steps(3);
     assert!(disk.recovered(&site).is_none());
-    // What is read again has a journal.
+    // The file that is read again has a journal.
     disk.window.app().reload(0, true);
     disk.window
         .wait(|app| !app.files.layers()[0].is_loading() && app.document().is_some());

@@ -192,7 +192,7 @@ fn a_renamed_vehicle_type_is_renamed_wherever_it_is_named() {
         entries.of(1).map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(of_node(&mut window), ["tugger"]);
-    // What is drawn next does not bring the old name back.
+    // The next drawn path does not bring the old name back.
     let template = &window.app().tools.template;
     assert_eq!(template.vehicle_types, [("tugger".to_owned(), Some(2.0))]);
     window.key(Modifiers::COMMAND, Key::Z);

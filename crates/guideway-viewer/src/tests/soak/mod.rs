@@ -3,11 +3,10 @@
 
 mod file_store;
 mod memory;
+mod record;
 mod saves;
 mod two_windows;
 
-use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,6 +25,7 @@ use super::test_window::TestWindow;
 use crate::command::Command;
 use crate::editing::entries_on_disk;
 use file_store::FileStore;
+use record::Record;
 
 /// Events per chapter. A chapter ends at rest, with the first file loaded again.
 const EVENTS_PER_CHAPTER: usize = 200;
@@ -44,16 +44,6 @@ struct Soak {
     record: Record,
 }
 
-/// Counts of actions, and memory over time.
-#[derive(Default)]
-struct Record {
-    counts: BTreeMap<&'static str, u64>,
-    /// Counts of the steps that can be undone, by name.
-    steps: BTreeMap<&'static str, u64>,
-    /// Minutes since the start, and resident megabytes, at the end of each chapter.
-    rests: Vec<(f64, f64)>,
-}
-
 /// Panics of all threads, also of those that the window replaces.
 static PANICS: AtomicU64 = AtomicU64::new(0);
 
@@ -63,42 +53,6 @@ fn count_panics() {
         PANICS.fetch_add(1, Ordering::Relaxed);
         show(panic);
     }));
-}
-
-impl Record {
-    fn count(&mut self, what: &'static str) {
-        *self.counts.entry(what).or_default() += 1;
-    }
-
-    fn at_rest_mb(&self) -> Vec<f64> {
-        self.rests.iter().map(|&(_, mb)| mb).collect()
-    }
-
-    /// The record as text.
-    fn text(&self, seed: u64, minutes: f64) -> String {
-        let mut text = format!("seed {seed}, {minutes:.1} minutes\n");
-        for (what, count) in &self.counts {
-            let _ = writeln!(text, "{count:>9}  {what}");
-        }
-        let _ = writeln!(
-            text,
-            "{:>9}  events in all",
-            self.counts.values().sum::<u64>()
-        );
-        for (what, count) in &self.steps {
-            let _ = writeln!(text, "{count:>9}  step: {what}");
-        }
-        let growth_mb = memory::growth_mb(&self.at_rest_mb());
-        let _ = writeln!(
-            text,
-            "memory at rest grew by {growth_mb:.1} MB\n\nminute  MB at rest"
-        );
-        let step = self.rests.len().div_ceil(60).max(1);
-        for (minute, mb) in self.rests.iter().step_by(step) {
-            let _ = writeln!(text, "{minute:>6.1}  {mb:.1}");
-        }
-        text
-    }
 }
 
 impl Soak {
