@@ -2,7 +2,12 @@
 //! while a text that differs in one digit would be shaped anew as a whole, which takes a quarter of
 //! a frame.
 
+use std::sync::Arc;
+
 use eframe::egui::{Response, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
+
+/// The signs of numbers. egui forgets a layout that no frame asks for, so each frame asks for all.
+const SIGNS: &str = "0123456789.,-:xym";
 
 /// Shows a line of monospaced signs, without those that join or combine.
 pub(super) fn digits(ui: &mut Ui, text: &str) -> Response {
@@ -12,7 +17,8 @@ pub(super) fn digits(ui: &mut Ui, text: &str) -> Response {
         let painter = ui.painter();
         painter.layout_no_wrap(sign.to_string(), font.clone(), color)
     };
-    let zero = layout(ui, '0').size();
+    let known: Vec<_> = SIGNS.chars().map(|sign| (sign, layout(ui, sign))).collect();
+    let zero = known[0].1.size();
     // Whole pixels keep the signs at equal distances.
     let scale = ui.pixels_per_point();
     let advance = (zero.x * scale).round() / scale;
@@ -20,7 +26,9 @@ pub(super) fn digits(ui: &mut Ui, text: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(width, zero.y), Sense::hover());
     for (number, sign) in text.chars().enumerate().filter(|(_, sign)| *sign != ' ') {
         let at = rect.min + vec2(advance * number as f32, 0.0);
-        ui.painter().galley(at, layout(ui, sign), color);
+        let galley = known.iter().find(|(known, _)| *known == sign);
+        let galley = galley.map_or_else(|| layout(ui, sign), |(_, galley)| Arc::clone(galley));
+        ui.painter().galley(at, galley, color);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Label, ui.is_enabled(), text));
     response
