@@ -100,14 +100,14 @@ fn one_pixel_changes_the_checksum() {
     assert_eq!(differing(&drawn, &expected), ["a scene"]);
 }
 
-/// A large layout, the looks of its paths, and its styles.
-struct Crowd {
+/// A large scene and the style that draws it.
+struct LargeScene {
     name: &'static str,
     scene: Arc<Scene>,
     style: Style,
 }
 
-impl Crowd {
+impl LargeScene {
     /// Draws the whole layout, and ever nearer views.
     fn draw(&self, gpu: &Tiles, into: &mut Checksums) {
         let budget = Budget::default();
@@ -127,8 +127,8 @@ impl Crowd {
     }
 }
 
-fn crowds() -> Vec<Crowd> {
-    let crowd = |name, layout, style| Crowd {
+fn crowds() -> Vec<LargeScene> {
+    let crowd = |name, layout, style| LargeScene {
         name,
         scene: {
             let scene = Scene::new(Arc::new(layout), &SceneOptions::default());

@@ -102,6 +102,7 @@ fn counts_follow_edits_of_few_and_many_paths() {
     for count in [9, MANY] {
         let mut scene = scene(count);
         check(&scene);
+        let start = scene.clone();
         let mut undo = Vec::new();
         for edit in edits(count) {
             undo.push(scene.edit_with_undo(&edit, |_| {}).unwrap());
@@ -110,11 +111,14 @@ fn counts_follow_edits_of_few_and_many_paths() {
         // Counts that nobody asked for in between.
         let mut quiet = scene.clone();
         for edit in undo.iter().rev() {
-            // Rows that occur twice have the state and style of after their first change.
             scene.edit(edit).unwrap();
             check(&scene);
             quiet.edit(edit).unwrap();
         }
         check(&quiet);
+        for row in 0..count {
+            let look = |of: &Scene| (of.color(row), of.width_m(row), of.state(row));
+            assert_eq!(look(&scene), look(&start), "{row}");
+        }
     }
 }

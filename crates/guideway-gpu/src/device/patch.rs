@@ -57,6 +57,11 @@ impl Patch {
         }
     }
 
+    /// Bytes of memory held.
+    pub(crate) fn capacity_bytes(&self) -> usize {
+        self.runs.capacity() * size_of::<Run>() + self.words.capacity() * size_of::<u32>()
+    }
+
     /// As [`Self::set_all`], of computed words.
     pub(crate) fn set_each(&mut self, first_word: usize, words: impl Iterator<Item = u32>) {
         let mut part = [0; MAX_RUN_WORDS];

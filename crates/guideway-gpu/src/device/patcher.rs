@@ -23,7 +23,7 @@ use super::runner::{Dispatch, Runner};
 const RUN_WORDS: usize = 3;
 /// Most words of entries per submission.
 const MAX_ENTRY_WORDS: usize = RUN_WORDS * BATCH_RUNS;
-/// Least words of a staging buffer.
+/// Least size of a staging buffer, in words.
 const MIN_WORDS: usize = 1 << 12;
 const THREADS: u32 = 64;
 const WHAT: &str = "changes of the scene";
@@ -147,6 +147,8 @@ impl Patcher {
         let most = MAX_ENTRY_WORDS / lists_per_batch;
         let element_batches = entry_batches(elements, most);
         let mut pick_batches = entry_batches(picks, most).into_iter();
+        // The first batch brings the values, which stay in their buffer for the others.
+        let mut unsent = words;
         for mut lists in element_batches {
             let count: usize = lists.iter().map(|list| list.len()).sum();
             lists.extend(pick_batches.next().unwrap_or_default());
@@ -157,7 +159,7 @@ impl Patcher {
                 element_words: (size_of::<T>() / size_of::<u32>()) as u32,
                 bit: 0,
             };
-            self.send(&target, params, &lists, &[words])?;
+            self.send(&target, params, &lists, &[std::mem::take(&mut unsent)])?;
         }
         Ok(())
     }

@@ -115,7 +115,7 @@ impl Runner {
         })
     }
 
-    /// Writes parts one behind the other to the start of a buffer, before the next submission.
+    /// Writes parts back to back from the start of a buffer, before the next submission.
     /// Threads share the work.
     ///
     /// # Errors
@@ -314,7 +314,7 @@ impl Runner {
     }
 }
 
-/// Parts one behind the other.
+/// Parts laid out back to back.
 struct Joined<'a> {
     parts: &'a [&'a [u32]],
     /// End of each part in bytes.

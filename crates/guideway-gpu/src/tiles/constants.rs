@@ -10,7 +10,8 @@ pub(crate) const WHOLE_PATH: u32 = 1 << 31;
 pub(crate) const PATH_START: u32 = 1 << 30;
 /// Flag in `Stroke::extent`: an open path ends with the stroke.
 pub(crate) const PATH_END: u32 = 1 << 29;
-/// Flag in `Stroke::extent` on the device: the path is hidden. The host keeps it apart.
+/// Flag in `Stroke::extent`, on the device only: the path is hidden. The host keeps it in
+/// `HiddenStrokes`.
 pub(crate) const HIDDEN_STROKE: u32 = 1 << 28;
 /// Lowest bit of the segment count in `Stroke::extent`, and its largest value.
 pub(crate) const SEGMENTS_BIT: u32 = 16;

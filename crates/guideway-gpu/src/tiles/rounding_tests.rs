@@ -38,6 +38,13 @@ fn pictures_do_not_depend_on_the_rounding_of_a_device() {
     found.sort_unstable();
     found.dedup();
     assert!(found.is_empty(), "{}", found.join("\n"));
+    let all = sources();
+    for name in BARRIERS.iter().chain(&ESTIMATES) {
+        let start = format!("fn {name}(");
+        let mut sources = all.iter();
+        let is_used = sources.any(|source| source.name == *name || source.wgsl.contains(&start));
+        assert!(is_used, "no shader has `{name}`");
+    }
 }
 
 #[test]

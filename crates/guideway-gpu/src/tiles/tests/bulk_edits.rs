@@ -1,5 +1,7 @@
-//! Edits of many paths: bytes that go up, and pictures as of a fresh preparation.
+//! Edits of many paths: the bytes that they upload, and pictures equal to those of a fresh
+//! preparation.
 
+use guideway_layout::Geometry;
 use guideway_scene::{Edit, PathState};
 use guideway_spline::Affine;
 
@@ -44,7 +46,7 @@ fn paths_that_are_shown_again_upload_no_points() {
 }
 
 #[test]
-fn edit_of_many_paths_equals_a_fresh_preparation_to_the_bit() {
+fn edit_that_packs_the_scene_again_equals_a_fresh_preparation_to_the_bit() {
     let Some(tiles) = tiles() else { return };
     let (scene, style) = (plain(70_000, 0.2), Style::default());
     let mut edited = prepared(&tiles, &scene);
@@ -116,4 +118,58 @@ fn styles_go_up_as_indices() {
     let three = |row: u32| colored([0x00ff_00ff, 0x0000_ffff, 0x0000_0080][row as usize / 10 % 3]);
     assert_eq!(restyle(&mut pair, &three), of_several);
     assert_eq!(restyle(&mut pair, &|_| OwnStyle::default()), of_one);
+}
+
+#[test]
+fn single_style_follows_a_translucent_scene() {
+    let Some(tiles) = tiles() else { return };
+    let scene = plain(3000, 2.0);
+    let style = OwnStyle {
+        color_rgba: Some(0x2060_a080),
+        ..OwnStyle::default()
+    };
+    let glass = Edit::Restyle((0..3000).map(|row| (row, style)).collect());
+    let mut edited = prepared(&tiles, &scene);
+    let (before, _) = picture(&mut edited, &all(), &Style::default());
+    edited.edit(&glass).unwrap();
+    let mut after = Scene::clone(&scene);
+    after.edit(&glass).unwrap();
+    let (drawn, _) = picture(&mut edited, &all(), &Style::default());
+    let mut fresh = prepared(&tiles, &Arc::new(after));
+    assert!(drawn == picture(&mut fresh, &all(), &Style::default()).0);
+    assert!(drawn != before);
+}
+
+#[test]
+fn row_that_an_edit_names_twice_is_drawn_once() {
+    let Some(tiles) = tiles() else { return };
+    let scene = mixed(300, 2.0);
+    // Far from its strokes, with another number of points.
+    let reshape = |paths: &[u32]| {
+        let bend = [30.0, 40.0, 50.0, 60.0, 50.0].map(|x| Point::new(x, x / 3.0));
+        let ends = (1..=paths.len() as u32).map(|count| 5 * count).collect();
+        Edit::Reshape {
+            paths: paths.into(),
+            curves: Arc::new(Geometry::from_f64(bend.repeat(paths.len()), ends)),
+            written: Arc::default(),
+        }
+    };
+    let states =
+        |paths: &[u32], state| Edit::SetStates(paths.iter().map(|&path| (path, state)).collect());
+    let mut hidden = Scene::clone(&scene);
+    hidden.edit(&states(&[7], PathState::Hidden)).unwrap();
+    let show = |paths: &[u32]| states(paths, PathState::Shown);
+    for (before, once, twice) in [
+        (Arc::clone(&scene), reshape(&[7]), reshape(&[7, 7])),
+        (Arc::new(hidden), show(&[7]), show(&[7, 7])),
+    ] {
+        let [one, two] = [&once, &twice].map(|edit| {
+            let mut edited = prepared(&tiles, &before);
+            picture(&mut edited, &all(), &Style::default());
+            edited.edit(edit).unwrap();
+            let (drawn, report) = picture(&mut edited, &all(), &Style::default());
+            (drawn, report.drawn)
+        });
+        assert!(one == two);
+    }
 }

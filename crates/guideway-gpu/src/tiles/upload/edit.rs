@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use guideway_layout::rows_ascend;
 use guideway_scene::{Edit, PathState, RenderError, Scene};
 use rayon::prelude::*;
 
@@ -24,14 +25,14 @@ use crate::tiles::layouts::{PathStyle, PointFormat};
 /// Unused points from which on the scene is packed again: this many, or a quarter of all points.
 const MAX_UNUSED_POINTS: usize = 1 << 16;
 
-/// Paths that leave the place of their strokes, from which on the scene is packed again: this many,
-/// and this part of all strokes.
+/// Least number of paths that leave the place of their strokes at which the scene is packed again:
+/// the greater of this number and this part of all strokes.
 const MIN_PACKED_PATHS: usize = 1 << 16;
 const PACKED_PART: usize = 4;
 
 /// Rows that one task collects.
 const TASK_ROWS: usize = 1 << 13;
-/// Paths whose points go up at once: some megabytes.
+/// Paths per upload of points: some megabytes of usual paths.
 const BATCH_PATHS: usize = 1 << 17;
 
 /// Result of an edit.
@@ -53,10 +54,13 @@ pub(crate) fn apply(
     let draws_all = scene.shown_count() == scene.row_count();
     scene.edit(edit).map_err(RenderError::Edit)?;
     let rows = match changed_rows(edit, first_new, &uploaded.scene) {
-        Some(rows) => rows,
+        Some(rows) => each_once(rows),
         None => return Ok(SceneBufferEdit::Applied(EditEffect::default())),
     };
-    uploaded.is_incomplete = true;
+    // Buffers of which an earlier edit wrote a part cannot be patched.
+    if std::mem::replace(&mut uploaded.is_incomplete, true) {
+        return Ok(SceneBufferEdit::NeedsUpload);
+    }
     let mut effect = EditEffect::default();
     let plain_before = uploaded.facts.is_plain.then_some(uploaded.facts.color);
     let moves = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
@@ -71,8 +75,13 @@ pub(crate) fn apply(
         return Ok(SceneBufferEdit::NeedsUpload);
     }
     if !moves {
-        let plain_before = plain_before.filter(|_| draws_all);
-        complete_styles(uploaded, device, edit, plain_before, &mut effect)?;
+        complete_styles(
+            uploaded,
+            device,
+            edit,
+            (plain_before, draws_all),
+            &mut effect,
+        )?;
     }
     let is_written = match edit {
         Edit::Restyle(_) => {
@@ -107,6 +116,17 @@ fn changed_rows<'a>(edit: &'a Edit, first_new: u32, scene: &Scene) -> Option<Cow
     })
 }
 
+/// Rows in ascending order, each once: an edit may name a row twice.
+fn each_once(rows: Cow<'_, [u32]>) -> Cow<'_, [u32]> {
+    if rows_ascend(&rows, &|row| *row) {
+        return rows;
+    }
+    let mut rows = rows.into_owned();
+    rows.par_sort_unstable();
+    rows.dedup();
+    rows.into()
+}
+
 /// The rows of items, by all threads if there are many.
 fn rows_of<I: Sync>(items: &[I], row: impl Fn(&I) -> u32 + Sync + Send) -> Vec<u32> {
     match items.len() {
@@ -118,25 +138,31 @@ fn rows_of<I: Sync>(items: &[I], row: impl Fn(&I) -> u32 + Sync + Send) -> Vec<u
     }
 }
 
-/// Makes room for the styles of all paths, if they look alike no longer. `plain_before` is the
-/// color that all paths had, hidden ones too.
+/// Makes the styles on the device serve all paths: a single style while paths look alike,
+/// otherwise one per path. `plain_before` is the color that all shown paths had; `draws_all` tells
+/// that no path was hidden.
 fn complete_styles(
     uploaded: &mut UploadedScene,
     device: &mut DeviceContext,
     edit: &Edit,
-    plain_before: Option<u32>,
+    (plain_before, draws_all): (Option<u32>, bool),
     effect: &mut EditEffect,
 ) -> Result<(), RenderError> {
-    let scene = &uploaded.scene;
+    let (scene, facts) = (&uploaded.scene, uploaded.facts);
     let Some(buffers) = &mut uploaded.buffers else {
         return Ok(());
     };
-    // The styles of all paths stay when the paths look alike again: nothing reads them then.
     let is_complete = buffers.style_count as usize == buffers.ranks.count(scene);
-    if is_complete || uploaded.facts.is_plain {
+    // Translucent paths read the single style, too, so it must have their color.
+    let is_current = facts.is_plain
+        && buffers.style_count == 1
+        && plain_before == Some(facts.color)
+        && !matches!(edit, Edit::Insert(_));
+    if is_complete || is_current {
         return Ok(());
     }
-    effect.moved_bytes += match plain_before.filter(|_| matches!(edit, Edit::Restyle(_))) {
+    let fills = draws_all && !facts.is_plain && matches!(edit, Edit::Restyle(_));
+    effect.moved_bytes += match plain_before.filter(|_| fills) {
         Some(color) => {
             let style = PathStyle {
                 color,
@@ -187,7 +213,7 @@ fn write_styles(
     send(uploaded, device, patches, Vec::new(), effect)
 }
 
-/// Writes new curves of rows, hidden or not. `false` if the scene had better be packed anew.
+/// Writes new curves of rows, hidden or not. Returns `false` if packing the scene again costs less.
 fn write_curves(
     uploaded: &mut UploadedScene,
     device: &mut DeviceContext,

@@ -43,6 +43,8 @@ pub(super) struct Rewriter<'a> {
 pub(crate) type SparePatches = Mutex<Vec<Patch>>;
 /// Most spare patches: those of one batch.
 const MAX_SPARE: usize = 64;
+/// Most bytes of a spare patch. Derived: a task of usual paths fills half of it.
+const MAX_SPARE_BYTES: usize = 1 << 20;
 
 /// Sends the points of tasks, and makes their patches spare. Returns the bytes sent.
 pub(super) fn send_points(
@@ -66,7 +68,8 @@ pub(super) fn send_points(
     let mut spare = spare.lock().unwrap_or_else(PoisonError::into_inner);
     for task in tasks {
         let used = std::mem::take(&mut task.points).into_values();
-        for mut patch in used.take(MAX_SPARE.saturating_sub(spare.len())) {
+        let small = used.filter(|patch| patch.capacity_bytes() <= MAX_SPARE_BYTES);
+        for mut patch in small.take(MAX_SPARE.saturating_sub(spare.len())) {
             patch.clear();
             spare.push(patch);
         }

@@ -1,4 +1,4 @@
-//! Shows and hides paths: what goes up is the index of each changed stroke.
+//! Shows and hides paths: sends the index of each changed stroke, never its points.
 
 use guideway_scene::cluster::DirtyClusters;
 use guideway_scene::{PathState, RenderError, Scene};

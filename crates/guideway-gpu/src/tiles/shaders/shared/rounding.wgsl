@@ -1,7 +1,9 @@
-// Arithmetic with the same bits on every device. Devices round single sums and products alike, but
-// each in its own way divides, takes roots, and computes a * b + c with one rounding or with two.
-// So a product is rounded before it enters a sum: a limit that values could exceed, here or in a
-// `clamp`, is no part of a product and a sum. A test looks at every sum of every shader.
+// Float arithmetic with the same bits on every device.
+//
+// WGSL lets a device contract a * b + c to one fma, which rounds once instead of twice, and bounds
+// the error of divisions and roots only loosely. A min or clamp between a product and a sum
+// prevents contraction. So every product passes `rounded` or a clamp before it enters a sum.
+// `rounding_tests.rs` checks every sum of every shader.
 
 const LIMIT: f32 = 1e30;
 
