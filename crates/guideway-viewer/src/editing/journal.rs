@@ -92,12 +92,24 @@ impl Journal {
     pub(super) fn record(&mut self, document: &mut Document, file: &Path) -> Result<(), Notice> {
         let is_waiting = self.failed_at.is_some_and(|at| at.elapsed() < RETRY);
         match &mut self.file {
-            Some(journal) if self.saving.is_none() && !is_waiting => {
-                let result = journal.record(document, file);
+            Some(journal) if self.saving.is_none() => {
+                // Also while it waits: a save marks all entries that were taken.
+                journal.take(document);
+                if is_waiting {
+                    return Ok(());
+                }
+                let result = journal.write_pending(file);
                 self.follow(result, file)
             }
             _ => Ok(()),
         }
+    }
+
+    /// The time until the journal is tried again; `None` unless it waits.
+    pub(crate) fn retry_after(&self) -> Option<Duration> {
+        self.file.as_ref()?;
+        let failed_at = self.failed_at?;
+        Some(RETRY.saturating_sub(failed_at.elapsed()))
     }
 
     /// Continues behind recovered work. Returns how much was recovered, as a notice.
@@ -155,11 +167,16 @@ impl Journal {
         };
         if !journal.is_of(file) {
             let moved = journal.mark_saved(file);
+            if moved.is_err() {
+                // All of it is in the saved file.
+                journal.delete();
+            }
             self.failed_at = None;
             return self.close_on_error(moved, file);
         }
         let copied = lacks_base.map_or(copied, |kind| Err(kind.into()));
         if copied.is_err() {
+            journal.delete();
             return self.close_on_error(copied, file);
         }
         let marked = journal.mark_saved(file);

@@ -22,7 +22,7 @@ use guideway_compose::lock_regular_file;
 use guideway_document::{Document, JournalEntry, ReplayProgress};
 
 use super::journal_header::{HEADER_BYTES, header, read_header};
-use super::journal_writes::{append, copy, create, rewrite, with_suffix};
+use super::journal_writes::{append, copy, create, or_remove, rewrite, with_suffix};
 use super::unsaved_work::{UnsavedSummary, UnsavedWork, read_entries};
 
 /// A journal file. It is created with the first entry, or before the first save.
@@ -141,21 +141,27 @@ impl JournalFile {
         Ok(is_all)
     }
 
-    /// Appends the document's new entries. Those that cannot be written come with the next ones.
-    ///
-    /// # Errors
-    /// When the journal cannot be written, or another window has it.
-    pub(crate) fn record(&mut self, document: &mut Document, layout_file: &Path) -> io::Result<()> {
-        if self.unsaved.is_some() {
-            return Ok(());
+    /// Takes the document's new entries, to be written.
+    pub(super) fn take(&mut self, document: &mut Document) {
+        if self.unsaved.is_none() {
+            let entries = document.take_journal_entries();
+            let records = entries.iter().flat_map(JournalEntry::to_record);
+            self.pending.extend(records);
         }
-        let entries = document.take_journal_entries();
-        let records = entries.iter().flat_map(JournalEntry::to_record);
-        self.pending.extend(records);
+    }
+
+    /// Takes the document's new entries and appends them.
+    #[cfg(test)]
+    pub(crate) fn record(&mut self, document: &mut Document, layout_file: &Path) -> io::Result<()> {
+        self.take(document);
         self.write_pending(layout_file)
     }
 
-    fn write_pending(&mut self, layout_file: &Path) -> io::Result<()> {
+    /// Appends the entries that were taken. Those that cannot be written come with the next ones.
+    ///
+    /// # Errors
+    /// When the journal cannot be written, or another window has it.
+    pub(super) fn write_pending(&mut self, layout_file: &Path) -> io::Result<()> {
         if !self.pending.is_empty() {
             let pending = std::mem::take(&mut self.pending);
             let written = self.created(layout_file);
@@ -235,13 +241,14 @@ impl JournalFile {
                 target = lock_regular_file(&moved.journal, true)?;
             }
             target.set_len(0)?;
-            match &mut self.file {
-                Some(file) => {
-                    file.rewind()?;
-                    io::copy(file, &mut target)?;
-                }
-                None => target.write_all(&header(layout_file, 0)?)?,
-            }
+            let written = match &mut self.file {
+                Some(file) => file
+                    .rewind()
+                    .and_then(|()| io::copy(file, &mut target))
+                    .map(drop),
+                None => header(layout_file, 0).and_then(|header| target.write_all(&header)),
+            };
+            or_remove(written, &moved.journal)?;
             moved.pending.clone_from(&self.pending);
             moved.file = Some(target);
         }
@@ -252,7 +259,7 @@ impl JournalFile {
                 true => &self.base,
                 false => &self.layout_file,
             };
-            copy(base, &moved.base)?;
+            or_remove(copy(base, &moved.base), &moved.journal)?;
         }
         self.delete();
         *self = moved;

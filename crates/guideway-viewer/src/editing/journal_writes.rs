@@ -36,7 +36,7 @@ pub(super) fn rewrite(vanished: &mut File, journal: &Path) -> io::Result<File> {
 }
 
 /// Removes a journal of which only a part was written.
-fn or_remove<T>(written: io::Result<T>, journal: &Path) -> io::Result<T> {
+pub(super) fn or_remove<T>(written: io::Result<T>, journal: &Path) -> io::Result<T> {
     written.inspect_err(|_| {
         // It may be gone.
         let _ = fs::remove_file(journal);

@@ -29,6 +29,9 @@ impl Layer {
             .err()
             .or_else(|| self.slot.journal_mut().take_notice());
         events.extend(recorded.map(LayerEvent::Notice));
+        if let Some(wait) = self.slot.journal().retry_after() {
+            ctx.request_repaint_after(wait);
+        }
         for event in self.tasks.poll(&mut self.slot, &home, repaint) {
             match event {
                 TaskEvent::Edit(task) => events.extend(self.run(task, EDIT_WAIT, repaint)),
