@@ -36,7 +36,6 @@ __all__ = [
     "RouteStep",
     "Table",
     "Tiler",
-    "Widget",
     "check_many",
     "open",
     "tiles",

@@ -17,7 +17,6 @@ __all__ = [
     "RouteStep",
     "Table",
     "Tiler",
-    "Widget",
     "check_many",
     "open",
     "tiles",

@@ -105,7 +105,10 @@ class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
             message = f"a widget shows a Layout, not a {type(source).__name__}"
             raise refusal(message, "Open it first: `guideway.Widget(guideway.open(path))`")
         self._source = source
-        self._is_closed = self._is_from_browser = False
+        if (center is None) != (scale is None):
+            raise refusal("`center` and `scale` make a view together", "Give both, or neither")
+        self._is_closed = False
+        self._from_browser: frozenset[str] = frozenset()
         super().__init__(
             _layout=_native.widget_layout(source),
             _fleet={"vehicles": [], "durationMs": 0},
@@ -132,8 +135,8 @@ class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
             self._check_elements([target])
             self._go({"element": target})
             return
-        box = [float(value) for value in target]
-        if len(box) != 4 or not all(map(math.isfinite, box)) or box[0] > box[2] or box[1] > box[3]:
+        box = [_finite(value, "a side of the box") for value in target]
+        if len(box) != 4 or box[0] > box[2] or box[1] > box[3]:
             remedy = "Write it as (min_x, min_y, max_x, max_y), in meters"
             raise refusal(f"the area {tuple(target)} is no box", remedy)
         self._go({"box": box})
@@ -165,11 +168,11 @@ class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
         """Takes changes from the browser."""
-        self._is_from_browser = True
+        self._from_browser = frozenset(sync_data)
         try:
             super().set_state(sync_data)
         finally:
-            self._is_from_browser = False
+            self._from_browser = frozenset()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         # Where there is no kernel, such as on a forge, a picture stands for the widget.
@@ -206,7 +209,7 @@ class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
     def _check(self, proposal: Any) -> Any:
         name, value = proposal["trait"].name, proposal["value"]
         # The browser may still report what Python has just replaced.
-        if self._is_from_browser:
+        if name in self._from_browser:
             return value
         self._check_open()
         if name in ("color_by", "level"):
@@ -224,6 +227,17 @@ class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
         return value
 
 
+def _finite(value: Any, name: str) -> float:
+    """A number for the browser, which has neither infinities nor texts in its place."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise refusal(f"{name} is {value!r}", "Give finite numbers: meters, `theta` in radians")
+    return number
+
+
 def _vehicle(of: Mapping[str, Any]) -> dict[str, Any]:
     """A vehicle for the browser."""
     unknown = sorted(set(of) - set(_VEHICLE))
@@ -235,10 +249,7 @@ def _vehicle(of: Mapping[str, Any]) -> dict[str, Any]:
             raise refusal(f"a vehicle without `{name}`", "Give `id`, and `x` and `y` in meters")
     given = {name: value for name, value in of.items() if value is not None}
     for name in given.keys() & set(_NUMBERS):
-        given[name] = float(given[name])
-        if not math.isfinite(given[name]):
-            message = f"vehicle {of['id']}: `{name}` is {given[name]}"
-            raise refusal(message, "Give finite numbers: meters, `theta` in radians")
+        given[name] = _finite(given[name], f"vehicle {of['id']}: `{name}`")
     return {
         _VEHICLE[name]: value if name in _NUMBERS else str(value) for name, value in given.items()
     }

@@ -161,6 +161,7 @@ def test_without_anywidget_the_rest_works_and_the_widget_says_what_to_install() 
 import sys
 sys.modules["anywidget"] = None
 import guideway
+from guideway import *
 assert not hasattr(guideway, "Wodget")
 try:
     guideway.Widget

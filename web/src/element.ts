@@ -44,7 +44,10 @@ export class GuidewayView extends Base {
   private extra: Partial<Look> = {};
   private highlighted: Details[] = [];
   private highlightColor = HIGHLIGHT;
+  /** Calls so far: of two, the later one holds, whichever answer comes last. */
   private highlights = 0;
+  private selections = 0;
+  private pointings = 0;
   private hovered: Picked | undefined;
   private selectedVehicle: string | undefined;
 
@@ -158,15 +161,26 @@ export class GuidewayView extends Base {
 
   /** Selects an element as a click does, without an event. */
   async select(of: ElementName | null): Promise<void> {
-    this.selectedVehicle = undefined;
-    this.pointer.selected = of === null ? undefined : await this.details(of);
+    const turn = ++this.selections;
+    const vehicle = this.vehicleNamed(of);
+    const found = of === null || vehicle ? undefined : await this.details(of);
+    if (turn !== this.selections) return;
+    this.selectedVehicle = vehicle?.id;
+    this.pointer.selected = found;
     this.map.paint();
   }
 
   /** Outlines an element as the pointer does, without an event. */
   async pointAt(of: ElementName | null): Promise<void> {
-    this.pointer.hovered = of === null ? undefined : await this.details(of);
+    const turn = ++this.pointings;
+    const found = of === null || this.vehicleNamed(of) ? undefined : await this.details(of);
+    if (turn !== this.pointings) return;
+    this.pointer.hovered = found;
     this.map.paint();
+  }
+
+  private vehicleNamed(of: ElementName | null): Vehicle | undefined {
+    return typeof of === "string" ? this.fleet.get(of) : undefined;
   }
 
   /** Replaces all vehicles. Those that are elsewhere now go there within `durationMs`. */
@@ -265,6 +279,8 @@ export class GuidewayView extends Base {
     this.opened = this.shade = this.hovered = this.selectedVehicle = undefined;
     this.highlighted = [];
     this.highlights++;
+    this.selections++;
+    this.pointings++;
     this.pointer.forget();
     this.map.reset();
     this.map.paint();

@@ -125,7 +125,8 @@ map.onreport = (report) => {
     // Once per layout: a view that changed its shading by itself would confuse.
     const shade = report.density ? "density" : "color";
     map.look.shade = shade;
-    panels.setLook({ ...map.look, shade });
+    const envelope = byId<HTMLInputElement>("envelope").value;
+    panels.setLook({ ...map.look, shade, envelope });
   }
   if (info && info !== summed) {
     summed = info;
@@ -229,13 +230,16 @@ async function showRoute(): Promise<void> {
 async function showEnvelope(text: string): Promise<void> {
   delete map.look.envelope;
   byId("envelope-text").textContent = "";
+  const isLate = () => byId<HTMLInputElement>("envelope").value.trim() !== text;
   try {
     if (text) {
       await engine.call("envelope", [text]);
+      if (isLate()) return;
       map.look.envelope = text;
     }
   } catch (error) {
-    if (!(error instanceof GuidewayError)) throw error;
+    if (!(error instanceof GuidewayError)) return notice(error);
+    if (isLate()) return;
     byId("envelope-text").textContent = `${error.message}. ${error.remedy}.`;
   }
   void map.refresh();

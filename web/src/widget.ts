@@ -64,7 +64,10 @@ function render({ model, el }: { model: Model; el: HTMLElement }): () => void {
     isTelling = false;
     model.save_changes();
   };
-  const fail = (error: unknown) => tell({ error: wordsOf(error).replaceAll("\n", " ") });
+  const fail = (error: unknown) => {
+    // A view that is removed stops its engine; one that returns takes all traits again.
+    if (view.isConnected) tell({ error: wordsOf(error).replaceAll("\n", " ") });
+  };
 
   const dress = () => {
     const attribute = (name: string, value: string | null) => {

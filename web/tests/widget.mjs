@@ -176,6 +176,11 @@ async function sharesTheTraits() {
   });
   await page.mouse.click(x, y);
   await until(page, "selected", "a");
+  // As a second view of the widget hears of it: a vehicle is no element of the layout.
+  await set(page, { selected: null });
+  await set(page, { selected: "a" });
+  await page.waitForFunction(() => view.selectedVehicle === "a");
+  assert.equal((await traits(page)).error, null);
   await page.context().close();
 }
 
@@ -190,6 +195,7 @@ async function saysWhatIsWrong() {
   await set(page, { selected: "no-such" });
   await page.waitForFunction(() => model.traits.error?.includes("`no-such`"));
   await set(page, { _fleet: { vehicles: [{ id: "b", x: null, y: 0 }], durationMs: 0 } });
+  await page.waitForFunction(() => model.traits.error?.includes("vehicle b"));
   // A second view of the same model has the same engine; a closed one ends, with all its listeners.
   const listeners = await page.evaluate(async () => {
     const before = model.listeners.length;
