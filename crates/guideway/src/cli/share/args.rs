@@ -60,8 +60,9 @@ pub(crate) struct Args {
     /// such as `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", value_parser = Input::parser())]
     pub(super) floor_plan: Option<Input>,
-    /// Show the areas that a vehicle sweeps at first: its length, width and the distance from its
-    /// rear end to its reference point, in meters; `file` uses the envelopes of the file
+    /// Vehicle whose swept areas the page shows: its length, width and the distance from its rear
+    /// end to its reference point (default: half the length), in meters; `file` uses the envelopes
+    /// of the file
     #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source)]
     pub(super) envelope: Option<EnvelopeSource>,
     /// Light lines on dark paper
