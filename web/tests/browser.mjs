@@ -244,7 +244,10 @@ async function sharedFloorPlanAndSweptAreasAreThoseOfTheCommand() {
     const fixed = { width: 700, height: 400, center: [36, 8], pxPerM: 12.5, shade: "color" };
     const all = { ...look, ...off, ...fixed };
     const made = await pngOf(page, all);
-    assert.ok(isSame(made, readFileSync(expected)), `${plan}: the picture differs`);
+    if (!isSame(made, readFileSync(expected))) {
+      writeFileSync(join(folder, "made.png"), made);
+      assert.fail(`${plan}: the picture differs: ${folder}/made.png, plan-expected.png`);
+    }
     for (const without of [{ floorPlan: false }, { envelope: undefined }, { range: undefined }]) {
       const other = await pngOf(page, { ...all, ...without });
       assert.ok(!isSame(other, made), `nothing differs without ${Object.keys(without)}`);

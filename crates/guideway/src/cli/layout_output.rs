@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use guideway::arrow::{Precision, WriteOptions, write_layout};
 use guideway::formats::{Losses, Target, WriteError, WriteProblem};
 use guideway::layout::{Layout, UserError, shown_path};
 use guideway::replace_file;
@@ -240,4 +241,19 @@ pub fn write_into(
     file.set_limit(limits::limits().output_bytes);
     let written = target.write(layout, file);
     written.map_err(|problem| write_error(output, problem))
+}
+
+/// A layout as Arrow with all digits of its curves, so that a page draws the same pixels. Errors
+/// name `path`.
+pub(crate) fn exact_arrow(layout: &Layout, path: &Path) -> Result<Vec<u8>, UserError> {
+    let options = WriteOptions {
+        precision: Some(Precision::F64),
+    };
+    let mut bytes = Vec::new();
+    let written = write_layout(layout, &mut bytes, &options);
+    written.map_err(|problem| WriteError {
+        path: path.to_owned(),
+        problem,
+    })?;
+    Ok(bytes)
 }

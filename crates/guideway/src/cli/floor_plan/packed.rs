@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use guideway::compose::{FloorPlanKind, Image, ImagePlacement};
-use guideway::formats::{Target, WriteError, raster};
+use guideway::formats::raster;
 use guideway::layout::{UserError, shown_path};
 
 use super::{pdf_page, placement, read_layout, read_map};
 use crate::cli::input::Input;
+use crate::cli::layout_output::exact_arrow;
 use crate::cli::output::Output;
 
 /// A floor plan as bytes: an image with its placement, or a layout as Arrow.
@@ -42,13 +43,8 @@ pub(crate) fn pack(input: &Input, out: &Output) -> Result<PackedPlan, UserError>
             (png(&Image::from_map(&grid), path)?, Some(grid.placement))
         }
         FloorPlanKind::Layout => {
-            let mut bytes = Vec::new();
-            let written = Target::Arrow.write(&read_layout(input, out)?, &mut bytes);
-            written.map_err(|problem| WriteError {
-                path: path.clone(),
-                problem,
-            })?;
-            (bytes, None)
+            let layout = read_layout(input, out)?;
+            (exact_arrow(&layout, path)?, None)
         }
     };
     let name = path.file_name().unwrap_or_default();

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use guideway::compose::ComposeError;
 use guideway::envelope::EnvelopeSource;
-use guideway::formats::Target;
 use guideway::layout::{Layout, UserError, shown_path};
 use guideway::scene::{ColorBy, Scene, SceneOptions};
 use serde_json::json;
@@ -14,6 +13,7 @@ use super::args::Args;
 use super::page::{SharedLook, page as make_page};
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::{self, Input, check_output};
+use crate::cli::layout_output::exact_arrow;
 use crate::cli::output::{Output, is_stdout, print, save};
 use crate::cli::picture_file::stem;
 use crate::cli::{envelope, floor_plan, stdout, text};
@@ -140,12 +140,7 @@ fn content(inputs: &[Input], layout: &Layout) -> Result<(String, Vec<u8>), UserE
         })?;
         return Ok((name, bytes));
     }
-    let mut bytes = Vec::new();
-    let written = Target::Arrow.write(layout, &mut bytes);
-    written.map_err(|problem| guideway::formats::WriteError {
-        path: first.path.clone(),
-        problem,
-    })?;
+    let bytes = exact_arrow(layout, &first.path)?;
     Ok((format!("{}.arrow", stem(&name)), bytes))
 }
 
