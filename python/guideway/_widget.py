@@ -234,7 +234,7 @@ def _finite(value: Any, name: str) -> float:
     except (TypeError, ValueError):
         number = math.nan
     if not math.isfinite(number):
-        raise refusal(f"{name} is {value!r}", "Give finite numbers: meters, `theta` in radians")
+        raise refusal(f"{name} is {value!r}", "Give finite numbers, in meters and radians")
     return number
 
 

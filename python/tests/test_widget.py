@@ -82,6 +82,18 @@ def test_python_and_the_browser_share_the_traits(widget: Any) -> None:
     assert state["highlight"] == ["dock-2", "dock-3"]
 
 
+def test_what_an_observer_sets_is_checked(widget: Any) -> None:
+    refused = []
+
+    def recolor(change: Any) -> None:
+        refused.append(refusal(setattr, widget, "color_by", change["new"]))
+
+    widget.observe(recolor, "selected")
+    widget.set_state({"selected": "dock-1"})
+    assert len(refused) == 1 and "dock-1" in refused[0]
+    assert (widget.selected, widget.color_by) == ("dock-1", None)
+
+
 def test_methods_tell_the_browser_what_to_do(widget: Any) -> None:
     widget.set_state({"center": [1, 2], "scale": 3})
     widget.fly_to("dock-1")
@@ -105,6 +117,7 @@ def test_wrong_arguments_are_refused_and_nothing_changes(
     assert "weight" in refusal(guideway.Widget, site, color_by="weight")
     assert "attic" in refusal(guideway.Widget, site, level="attic")
     assert "`no-such`" in refusal(guideway.Widget, site, selected="no-such")
+    assert "together" in refusal(guideway.Widget, site, scale=2.0)
     for name, value, said in [
         ("color_by", "weight", "weight"),
         ("level", "attic", "attic"),
@@ -119,12 +132,18 @@ def test_wrong_arguments_are_refused_and_nothing_changes(
         assert said in refusal(setattr, widget, name, value), name
         assert getattr(widget, name) == before
     assert "`no-such`" in refusal(widget.fly_to, "no-such")
-    for box in [(0, 0, 1), (1, 0, 0, 1), (0, 0, math.nan, 1)]:
-        assert "no box" in refusal(widget.fly_to, box)
+    for box, said in [
+        ((0, 0, 1), "no box"),
+        ((1, 0, 0, 1), "no box"),
+        ((0, 0, math.nan, 1), "nan"),
+        ((0, 0, "wide", 1), "wide"),
+    ]:
+        assert said in refusal(widget.fly_to, box)
     for vehicle, said in [
         ({"x": 1, "y": 2}, "`id`"),
         ({"id": "a", "x": 1}, "`y`"),
         ({"id": "a", "x": 1, "y": math.nan}, "vehicle a"),
+        ({"id": "a", "x": "left", "y": 1}, "'left'"),
         ({"id": "a", "x": 1, "y": 2, "speed": 3}, "`speed`"),
     ]:
         assert said in refusal(widget.set_vehicles, [vehicle])
