@@ -23,6 +23,14 @@ impl NoEnvelope {
         Self::CenterOnly,
         Self::Unreadable,
     ];
+
+    /// The reason that most paths have, by the number of paths per reason in the order of
+    /// [`Self::ALL`]; `None` if no path has one.
+    pub fn most_frequent(counts: &[u64; Self::ALL.len()]) -> Option<Self> {
+        let reasons = Self::ALL.into_iter();
+        let most_frequent = reasons.max_by_key(|&reason| counts[reason as usize]);
+        most_frequent.filter(|&reason| counts[reason as usize] > 0)
+    }
 }
 
 impl fmt::Display for NoEnvelope {

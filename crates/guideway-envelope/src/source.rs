@@ -41,13 +41,7 @@ impl EnvelopeSource {
                 Err(reason) => without[reason as usize] += 1,
             }
         }
-        let most_frequent = NoEnvelope::ALL
-            .into_iter()
-            .max_by_key(|&reason| without[reason as usize]);
-        match most_frequent {
-            Some(reason) if without[reason as usize] > 0 => Err(reason),
-            _ => Ok(()),
-        }
+        NoEnvelope::most_frequent(&without).map_or(Ok(()), Err)
     }
 
     /// The area swept along a path.

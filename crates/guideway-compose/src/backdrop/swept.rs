@@ -312,10 +312,8 @@ impl Cost {
 impl SweptReport {
     /// Fails when paths were swept and none has an area: the picture would not show that.
     fn require_any(&self) -> Result<(), ComposeError> {
-        let reasons = NoEnvelope::ALL.into_iter();
-        let most_frequent = reasons.max_by_key(|&reason| self.without[reason as usize]);
-        match most_frequent {
-            Some(reason) if self.drawn + self.outside == 0 && self.without[reason as usize] > 0 => {
+        match NoEnvelope::most_frequent(&self.without) {
+            Some(reason) if self.drawn + self.outside == 0 => {
                 Err(ComposeError::NoEnvelope { reason })
             }
             _ => Ok(()),

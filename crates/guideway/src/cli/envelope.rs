@@ -28,13 +28,8 @@ pub(crate) fn require_any(
     with: u64,
     without: &[u64; NoEnvelope::ALL.len()],
 ) -> Result<(), UserError> {
-    let most_frequent = NoEnvelope::ALL
-        .into_iter()
-        .max_by_key(|&reason| without[reason as usize]);
-    match most_frequent {
-        Some(reason) if with == 0 && without[reason as usize] > 0 => {
-            Err(ComposeError::NoEnvelope { reason }.into())
-        }
+    match NoEnvelope::most_frequent(without) {
+        Some(reason) if with == 0 => Err(ComposeError::NoEnvelope { reason }.into()),
         _ => Ok(()),
     }
 }
