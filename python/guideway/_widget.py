@@ -175,7 +175,7 @@ class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
             self._from_browser = frozenset()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-        # Where there is no kernel, such as on a forge, a picture stands for the widget.
+        # A picture stands for the widget where there is no kernel, such as on a forge.
         size = (960, max(min(self.height, 2160), 1))
         picture = self._source.render(
             size=size, color_by=self.color_by, level=self.level, site=self.site

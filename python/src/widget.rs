@@ -39,14 +39,8 @@ pub(crate) fn widget_layout<'py>(
 ) -> PyResult<Bound<'py, PyBytes>> {
     let layout = source.shared();
     let bytes = py.detach(|| {
-        let mut runs = layout.paths.iter().flat_map(PathRef::runs);
-        let is_exact = runs.all(|run| run.iter().all(|point| point.to_f32().to_f64() == point));
-        let precision = match is_exact {
-            true => Precision::F32,
-            false => Precision::F64,
-        };
         let options = WriteOptions {
-            precision: Some(precision),
+            precision: Some(Precision::exact(&layout)),
         };
         let mut bytes = Vec::new();
         let written = write_layout(&layout, &mut bytes, &options);

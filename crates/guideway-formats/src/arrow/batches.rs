@@ -51,7 +51,7 @@ const ORDERED_BATCH_ROWS: usize = 2048;
 /// When a number of the layout is not finite.
 pub fn batches(layout: &Layout) -> Result<Batches<'_>, WriteProblem> {
     check_finite(layout)?;
-    Ok(Batches::new(layout, precision_within(layout, 0.0)))
+    Ok(Batches::new(layout, Precision::exact(layout)))
 }
 
 /// Returns all [`batches`] of a layout at once, for a reader that outlives the layout.
@@ -188,6 +188,13 @@ fn metadata(layout: &Layout, version: u32) -> HashMap<String, String> {
         metadata.insert(LATITUDE_KEY.to_owned(), origin.latitude_deg.to_string());
     }
     metadata
+}
+
+impl Precision {
+    /// The smallest storage type that keeps every digit of the control points of a layout.
+    pub fn exact(layout: &Layout) -> Self {
+        precision_within(layout, 0.0)
+    }
 }
 
 /// Returns `f32` if it moves no control point by more than a distance.

@@ -247,7 +247,7 @@ pub fn write_into(
 /// name `path`.
 pub(crate) fn exact_arrow(layout: &Layout, path: &Path) -> Result<Vec<u8>, UserError> {
     let options = WriteOptions {
-        precision: Some(Precision::F64),
+        precision: Some(Precision::exact(layout)),
     };
     let mut bytes = Vec::new();
     let written = write_layout(layout, &mut bytes, &options);
