@@ -64,26 +64,36 @@ impl EditPatches {
             }
         }
         let lists = [(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
-        let mut patches = BTreeMap::<_, Vec<&Patch>>::new();
-        for (target, patch) in lists {
-            patches.entry(target).or_default().push(patch);
-        }
-        for (target, finished) in &self.finished {
-            patches.entry(*target).or_default().extend(finished);
-        }
-        let bytes = patches.values().flatten().map(|patch| patch.bytes()).sum();
-        for (target, patches) in patches {
-            if let Some(buffer) = target.buffer(buffers) {
-                let (patcher, target) = device.patch(patcher, buffer)?;
-                patcher.apply(target, &patches)?;
-            }
-        }
-        Ok(bytes)
+        let finished = self.finished.iter();
+        let finished = finished.flat_map(|(target, all)| all.iter().map(|patch| (*target, patch)));
+        send_patches(lists.into_iter().chain(finished), buffers, patcher, device)
     }
 }
 
+/// Sends patches, those of one buffer together. Returns the bytes sent.
+pub(super) fn send_patches<'a>(
+    patches: impl Iterator<Item = (Target, &'a Patch)>,
+    buffers: &SceneBuffers,
+    patcher: &mut Option<Patcher>,
+    device: &mut DeviceContext,
+) -> Result<u64, RenderError> {
+    let mut by_target = BTreeMap::<_, Vec<&Patch>>::new();
+    let mut bytes = 0;
+    for (target, patch) in patches {
+        by_target.entry(target).or_default().push(patch);
+        bytes += patch.bytes();
+    }
+    for (target, patches) in by_target {
+        if let Some(buffer) = target.buffer(buffers) {
+            let (patcher, target) = device.patch(patcher, buffer)?;
+            patcher.apply(target, &patches)?;
+        }
+    }
+    Ok(bytes)
+}
+
 impl Target {
-    pub(super) fn buffer(self, buffers: &SceneBuffers) -> Option<&DeviceBuffer> {
+    fn buffer(self, buffers: &SceneBuffers) -> Option<&DeviceBuffer> {
         Some(match self {
             Self::Points(index) => &buffers.point_buffers[index].points,
             Self::ExactPoints => &buffers.exact_points.as_ref()?.buffer.points,

@@ -17,7 +17,7 @@ use guideway_scene::{RenderError, Scene};
 use rayon::prelude::*;
 
 use super::cluster::{ClusterOrigin, LocalBox};
-use super::edit_patches::Target;
+use super::edit_patches::{Target, send_patches};
 use super::pack::Packing;
 use super::path_parts::PathPart;
 use super::path_strokes::{PathStrokes, cluster_of, stroke_capacity};
@@ -54,17 +54,9 @@ pub(super) fn send_points(
     device: &mut DeviceContext,
     spare: &SparePatches,
 ) -> Result<u64, RenderError> {
-    let mut patches = BTreeMap::<_, Vec<&Patch>>::new();
-    for (target, patch) in tasks.iter().flat_map(|task| &task.points) {
-        patches.entry(*target).or_default().push(patch);
-    }
-    let bytes = patches.values().flatten().map(|patch| patch.bytes()).sum();
-    for (target, patches) in patches {
-        if let Some(buffer) = target.buffer(buffers) {
-            let (patcher, target) = device.patch(patcher, buffer)?;
-            patcher.apply(target, &patches)?;
-        }
-    }
+    let points = tasks.iter().flat_map(|task| &task.points);
+    let points = points.map(|(target, patch)| (*target, patch));
+    let bytes = send_patches(points, buffers, patcher, device)?;
     let mut spare = spare.lock().unwrap_or_else(PoisonError::into_inner);
     for task in tasks {
         let used = std::mem::take(&mut task.points).into_values();
