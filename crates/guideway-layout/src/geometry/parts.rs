@@ -21,6 +21,18 @@ pub(super) struct PathPoints<'a, T> {
     pub(super) hulls: Option<&'a mut [Bounds<T>]>,
 }
 
+impl<'a, T> PathPoints<'a, T> {
+    /// Those of all paths.
+    pub(super) fn all(points: &'a mut [Point<T>], hulls: Option<&'a mut [Bounds<T>]>) -> Self {
+        Self {
+            first_path: 0,
+            first_point: 0,
+            points,
+            hulls,
+        }
+    }
+}
+
 /// Calls a function for the points of each path: in parallel if there are many paths and they
 /// ascend. `points_of` returns the range of the points of a path, `visit` receives the index of the
 /// path in `paths`. Updates the hulls.
@@ -113,12 +125,7 @@ mod tests {
     fn visited(paths: &[u32], count: usize) -> (Vec<Point<f64>>, Vec<Bounds<f64>>) {
         let mut points = vec![Point::new(-1.0, -1.0); 3 * count];
         let mut hulls = vec![hull_of(&[]); count];
-        let of = PathPoints {
-            first_path: 0,
-            first_point: 0,
-            points: &mut points,
-            hulls: Some(&mut hulls),
-        };
+        let of = PathPoints::all(&mut points, Some(&mut hulls));
         let points_of = |path: usize| 3 * path..3 * path + 3;
         for_each_path(of, paths, &points_of, &|points, index| {
             points.fill(Point::new(index as f64, 0.0));

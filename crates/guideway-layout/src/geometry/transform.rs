@@ -46,24 +46,14 @@ impl Geometry {
             Points::F64(points) => {
                 let hulls = hulls.and_then(Hulls::wide_mut);
                 let is_known = hulls.is_some();
-                let all = PathPoints {
-                    first_path: 0,
-                    first_point: 0,
-                    points,
-                    hulls,
-                };
+                let all = PathPoints::all(points, hulls);
                 for_each_path(all, paths, &points_of, visit_wide);
                 is_known
             }
             Points::F32(points) => {
                 let hulls = hulls.and_then(Hulls::narrow_mut);
                 let is_known = hulls.is_some();
-                let all = PathPoints {
-                    first_path: 0,
-                    first_point: 0,
-                    points,
-                    hulls,
-                };
+                let all = PathPoints::all(points, hulls);
                 for_each_path(all, paths, &points_of, visit_narrow);
                 is_known
             }

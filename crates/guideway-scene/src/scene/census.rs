@@ -9,7 +9,7 @@ use crate::color::Rgba;
 const TASK_ROWS: usize = 1 << 13;
 
 /// The style and visibility of a path.
-pub(super) struct PathLook {
+pub(super) struct PathAppearance {
     pub(super) color: Rgba,
     pub(super) width_m: Option<f32>,
     pub(super) is_shown: bool,
@@ -42,13 +42,13 @@ pub(super) struct StyleCounts {
 
 impl StyleCensus {
     /// Looks at `rows` paths.
-    pub(super) fn of(rows: usize, look: &(impl Fn(u32) -> PathLook + Sync)) -> Self {
+    pub(super) fn of(rows: usize, appearance: &(impl Fn(u32) -> PathAppearance + Sync)) -> Self {
         let rows = 0..rows as u32;
-        let mut shown = rows.clone().map(look).filter(|path| path.is_shown);
+        let mut shown = rows.clone().map(appearance).filter(|path| path.is_shown);
         let color = shown.next().map_or(Rgba::BLACK, |path| path.color);
         let tasks = rows.into_par_iter().with_min_len(TASK_ROWS);
         let counts = tasks.fold(StyleCounts::default, |counts, row| {
-            counts.with(look(row), color)
+            counts.with(appearance(row), color)
         });
         Self {
             color,
@@ -61,12 +61,12 @@ impl StyleCensus {
         &self,
         items: &[I],
         row: &(impl Fn(&I) -> u32 + Sync),
-        look: &(impl Fn(u32) -> PathLook + Sync),
+        appearance: &(impl Fn(u32) -> PathAppearance + Sync),
     ) -> StyleCounts {
         let of_task = |items: &[I]| {
             let rows = items.iter().map(row);
             rows.fold(StyleCounts::default(), |counts, row| {
-                counts.with(look(row), self.color)
+                counts.with(appearance(row), self.color)
             })
         };
         if items.len() <= TASK_ROWS {
@@ -122,7 +122,7 @@ impl StyleCensus {
 }
 
 impl StyleCounts {
-    fn with(mut self, path: PathLook, color: Rgba) -> Self {
+    fn with(mut self, path: PathAppearance, color: Rgba) -> Self {
         self.translucent += usize::from(!path.color.is_opaque());
         if path.is_shown {
             self.alike += usize::from(path.color == color);

@@ -2,7 +2,7 @@
 
 use guideway_layout::rows_ascend;
 
-use super::census::{PathLook, StyleCensus, StyleCounts};
+use super::census::{PathAppearance, StyleCensus, StyleCounts};
 use super::error::NoOpaqueColor;
 use super::model::{Colors, Scene};
 use super::path_state::PathState;
@@ -55,8 +55,8 @@ impl Scene {
     }
 
     /// The style and visibility of a path.
-    fn look(&self, path: u32) -> PathLook {
-        PathLook {
+    fn appearance(&self, path: u32) -> PathAppearance {
+        PathAppearance {
             color: self.color(path),
             width_m: self.width_m(path),
             is_shown: self.state(path) == PathState::Shown,
@@ -66,7 +66,7 @@ impl Scene {
     /// Counts of styles. The first call after edits that leave it unknown looks at all paths.
     fn census(&self) -> &StyleCensus {
         self.census
-            .get_or_init(|| StyleCensus::of(self.row_count(), &|row| self.look(row)))
+            .get_or_init(|| StyleCensus::of(self.row_count(), &|row| self.appearance(row)))
     }
 
     /// Runs a change of the styles or states of some paths, and updates the census.
@@ -78,10 +78,10 @@ impl Scene {
     ) {
         let known = self.census.take();
         let known = known.filter(|_| rows_ascend(items, row));
-        let before = known.map(|known| known.counts_of(items, row, &|path| self.look(path)));
+        let before = known.map(|known| known.counts_of(items, row, &|path| self.appearance(path)));
         change(self);
         if let (Some(known), Some(before)) = (known, before) {
-            let after = known.counts_of(items, row, &|path| self.look(path));
+            let after = known.counts_of(items, row, &|path| self.appearance(path));
             if let Some(census) = known.after(before, after) {
                 self.census = census.into();
             }
@@ -91,7 +91,7 @@ impl Scene {
     /// Adds new rows to the census.
     pub(super) fn count_new_styles(&mut self, new: &[u32]) {
         if let Some(known) = self.census.take() {
-            let counts = known.counts_of(new, &|row| *row, &|path| self.look(path));
+            let counts = known.counts_of(new, &|row| *row, &|path| self.appearance(path));
             if let Some(census) = known.after(StyleCounts::default(), counts) {
                 self.census = census.into();
             }
