@@ -317,6 +317,17 @@ pub(crate) fn relative(path: &Path, folder: &Path) -> String {
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
+/// Reads a file as it is.
+///
+/// # Errors
+/// When it cannot be read.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, UserError> {
+    std::fs::read(path).map_err(|error| {
+        let message = format!("{}: cannot read the file: {error}", shown_path(path));
+        UserError::new("read", message, "Check the file and its permissions")
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

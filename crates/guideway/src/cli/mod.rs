@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `default_command` | the command that `guideway FILE` means |
 //! | `app`, `start` | parse arguments, dispatch to a subcommand, exit |
-//! | `input`, `floor_plan`, `envelope`, `values`, `limits` | read arguments and files |
+//! | `input`, `floor_plan`, `envelope`, `number_args`, `values`, `limits` | read arguments and files |
 //! | `layout_output`, `picture_file`, `picture_output` | outputs: layouts, names of pictures, pictures |
 //! | `output`, `stdout`, `text`, `colors`, `progress_bar`, `error`, `process` | reports, errors, exit codes, threads and signals |
 //! | all others | one subcommand each |
@@ -30,6 +30,7 @@ mod layout_output;
 mod limits;
 mod methods;
 mod network;
+mod number_args;
 mod output;
 mod part_progress;
 mod picture_file;

@@ -1,6 +1,7 @@
 //! Tests of `share`, and of pages that `render` writes.
 
 use std::io::Read;
+use std::path::Path;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -15,16 +16,17 @@ fn content<'a>(page: &'a str, id: &str) -> &'a str {
     rest.split_once("</script>").unwrap().0
 }
 
+/// Runs the command in a folder; it must succeed.
+fn run_in(folder: &Path, args: &[&str]) {
+    let output = command().args(args).current_dir(folder).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+}
+
 #[test]
 fn page_opens_as_its_options_say() {
     let folder = tempfile::tempdir().unwrap();
     let share = |args: &[&str]| {
-        let output = command()
-            .args(args)
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{}", stderr(&output));
+        run_in(folder.path(), args);
         let page = std::fs::read_to_string(folder.path().join("a.html")).unwrap();
         let shared: Value = serde_json::from_str(content(&page, "shared")).unwrap();
         (page, shared)
@@ -54,14 +56,7 @@ fn page_holds_floor_plan_vehicle_and_palette() {
     let folder = tempfile::tempdir().unwrap();
     let site = site();
     let site = site.to_str().unwrap();
-    let run = |args: &[&str]| {
-        let output = command()
-            .args(args)
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{}", stderr(&output));
-    };
+    let run = |args: &[&str]| run_in(folder.path(), args);
     run(&["convert", site, "plan.dxf"]);
     run(&["render", site, "-o", "plan.png", "--size", "30x20"]);
     let image = std::fs::read(folder.path().join("plan.png")).unwrap();

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use guideway::SaveError;
 use guideway::compose::{FloorPlanKind, Image, ImagePlacement};
 use guideway::formats::raster;
-use guideway::layout::{UserError, shown_path};
+use guideway::layout::UserError;
 
 use super::{pdf_page, placement, read_layout, read_map};
-use crate::cli::input::Input;
+use crate::cli::input::{Input, read_bytes};
 use crate::cli::layout_output::exact_arrow;
 use crate::cli::output::Output;
 
@@ -55,16 +56,10 @@ pub(crate) fn pack(input: &Input, out: &Output) -> Result<PackedPlan, UserError>
     })
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, UserError> {
-    std::fs::read(path).map_err(|error| unreadable(path, &error))
-}
-
 fn png(image: &Image, path: &Path) -> Result<Vec<u8>, UserError> {
-    let png = image.png().map_err(|error| unreadable(path, &error))?;
-    Ok(png.into_owned())
-}
-
-fn unreadable(path: &Path, error: &std::io::Error) -> UserError {
-    let message = format!("{}: cannot read the file: {error}", shown_path(path));
-    UserError::new("read", message, "Check the file and its permissions")
+    let png = image.png().map_err(|problem| SaveError {
+        path: path.to_owned(),
+        problem,
+    });
+    Ok(png?.into_owned())
 }

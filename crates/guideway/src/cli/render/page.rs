@@ -39,9 +39,9 @@ impl Args {
             px_per_m: viewport.px_per_m,
             level: options.scene.level,
             color_by: options.scene.color_by.map(|by| by.column),
-            palette: self.style.palette.map(Palette::name),
-            range: self.style.range,
-            envelope: None,
+            palette: self.style.numbers.palette.map(Palette::name),
+            range: self.style.numbers.range,
+            envelope: self.view.envelope,
             shade: (options.style.shading != Shading::Color).then_some("density"),
             background: background.map(|color| format!("{:06x}", color.to_u32() >> 8)),
             legend: (self.style.legend || decorations.has_legend).then_some(true),
@@ -50,8 +50,7 @@ impl Args {
             inputs: &self.inputs,
             floor_plan: self.floor_plan(),
             title: decorations.title.as_deref(),
-            envelope: self.view.envelope,
         };
-        share::write(&content, output, look, out)
+        share::write(&content, output, &look, out)
     }
 }

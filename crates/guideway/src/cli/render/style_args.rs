@@ -3,9 +3,10 @@
 use clap::ValueEnum;
 use guideway::layout::UserError;
 use guideway::scene::density::ToneMap;
-use guideway::scene::{LineRule, NumberColors, Palette, Rgba, Shading, Style};
+use guideway::scene::{LineRule, NumberColors, Rgba, Shading, Style};
 
 use crate::cli::error::usage_error;
+use crate::cli::number_args::NumberArgs;
 use crate::cli::values;
 
 #[derive(Debug, clap::Args)]
@@ -40,18 +41,8 @@ pub(crate) struct StyleArgs {
     /// Color paths by a column: `level`, `direction`, `vehicle_type` or a column of the file
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color_by: Option<String>,
-    /// Colors of the numbers of that column [default: warm]
-    #[arg(long, value_name = "NAME", requires = "color_by", value_parser = values::palette())]
-    pub(super) palette: Option<Palette>,
-    /// Numbers at both ends of the palette, such as 0..2 [default: the least and the largest one]
-    #[arg(
-        long,
-        value_name = "MIN..MAX",
-        requires = "color_by",
-        value_parser = values::range,
-        allow_hyphen_values = true
-    )]
-    pub(super) range: Option<[f64; 2]>,
+    #[command(flatten)]
+    pub(super) numbers: NumberArgs,
     /// Draw the legend of the colors into the picture
     #[arg(long)]
     pub(crate) legend: bool,
@@ -123,8 +114,8 @@ impl StyleArgs {
     /// The colors of numbers on a background.
     pub(crate) fn numbers(&self, background: Rgba) -> NumberColors {
         NumberColors {
-            palette: self.palette.unwrap_or_default(),
-            range: self.range,
+            palette: self.numbers.palette.unwrap_or_default(),
+            range: self.numbers.range,
             background,
         }
     }

@@ -8,6 +8,7 @@ use guideway::spline::Point;
 
 use super::page::SharedLook;
 use crate::cli::input::{Input, PLACEMENT_HELP};
+use crate::cli::number_args::NumberArgs;
 use crate::cli::{envelope, values};
 
 #[derive(Debug, clap::Args)]
@@ -44,18 +45,8 @@ pub(crate) struct Args {
     /// Color paths by a column: `level`, `direction`, `vehicle_type` or a column of the file
     #[arg(long, value_name = "COLUMN")]
     pub(super) color_by: Option<String>,
-    /// Colors of the numbers of that column [default: warm]
-    #[arg(long, value_name = "NAME", requires = "color_by", value_parser = values::palette())]
-    palette: Option<Palette>,
-    /// Numbers at both ends of the palette, such as 0..2 [default: the least and the largest one]
-    #[arg(
-        long,
-        value_name = "MIN..MAX",
-        requires = "color_by",
-        value_parser = values::range,
-        allow_hyphen_values = true
-    )]
-    range: Option<[f64; 2]>,
+    #[command(flatten)]
+    numbers: NumberArgs,
     /// File to show below the paths: a layout, a drawing, a ROS map, a page of a PDF or an image,
     /// such as `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", value_parser = Input::parser())]
@@ -64,7 +55,7 @@ pub(crate) struct Args {
     /// end to its reference point (default: half the length), in meters; `file` uses the envelopes
     /// of the file
     #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source)]
-    pub(super) envelope: Option<EnvelopeSource>,
+    envelope: Option<EnvelopeSource>,
     /// Light lines on dark paper
     #[arg(long)]
     dark: bool,
@@ -78,8 +69,9 @@ impl Args {
             px_per_m: self.scale,
             level: self.level.clone(),
             color_by: self.color_by.clone(),
-            palette: self.palette.map(Palette::name),
-            range: self.range,
+            palette: self.numbers.palette.map(Palette::name),
+            range: self.numbers.range,
+            envelope: self.envelope,
             legend: self.color_by.is_some().then_some(true),
             background: self.dark.then(|| "16181d".to_owned()),
             ..SharedLook::default()

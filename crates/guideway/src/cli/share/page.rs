@@ -7,10 +7,12 @@ use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
+use guideway::envelope::EnvelopeSource;
 use guideway::layout::UserError;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
+use crate::cli::envelope;
 use crate::cli::floor_plan::PackedPlan;
 
 /// The page without engine and layout, as gzip: `cargo xtask web` makes it.
@@ -43,15 +45,25 @@ pub(crate) struct SharedLook {
     pub(crate) palette: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) range: Option<[f64; 2]>,
-    /// As in `--envelope`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) envelope: Option<String>,
+    /// The vehicle whose swept areas are shown, as in `--envelope`.
+    #[serde(
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "serialize_vehicle"
+    )]
+    pub(crate) envelope: Option<EnvelopeSource>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) shade: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) background: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) legend: Option<bool>,
+}
+
+fn serialize_vehicle<S: Serializer>(
+    vehicle: &Option<EnvelopeSource>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    vehicle.map(envelope::name).serialize(serializer)
 }
 
 /// Puts a layout and its floor plan into the page. `name` is the name of the layout's file, by

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use guideway::compose::ComposeError;
-use guideway::envelope::EnvelopeSource;
 use guideway::layout::{Layout, UserError, shown_path};
 use guideway::scene::{ColorBy, Scene, SceneOptions};
 use serde_json::json;
@@ -16,7 +15,7 @@ use crate::cli::input::{self, Input, check_output};
 use crate::cli::layout_output::exact_arrow;
 use crate::cli::output::{Output, is_stdout, print, save};
 use crate::cli::picture_file::stem;
-use crate::cli::{envelope, floor_plan, stdout, text};
+use crate::cli::{floor_plan, stdout, text};
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let output = match &args.output {
@@ -29,14 +28,12 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             format!("Name it {}", shown_path(&output.with_extension("html"))),
         ));
     }
-    let plan = args.floor_plan.as_ref();
     let content = Content {
         inputs: &args.inputs,
-        floor_plan: plan,
+        floor_plan: args.floor_plan.as_ref(),
         title: args.title.as_deref(),
-        envelope: args.envelope,
     };
-    write(&content, &output, args.look(), out)
+    write(&content, &output, &args.look(), out)
 }
 
 /// Returns `true` if the extension of a file says that it is a page.
@@ -52,8 +49,6 @@ pub(crate) struct Content<'a> {
     pub(crate) floor_plan: Option<&'a Input>,
     /// `None` for the name of the first file.
     pub(crate) title: Option<&'a str>,
-    /// The vehicle whose swept areas are shown.
-    pub(crate) envelope: Option<EnvelopeSource>,
 }
 
 /// Writes layout files into a page.
@@ -63,7 +58,7 @@ pub(crate) struct Content<'a> {
 pub(crate) fn write(
     page: &Content<'_>,
     output: &Path,
-    mut look: SharedLook,
+    look: &SharedLook,
     out: &Output,
 ) -> Result<Exit, UserError> {
     let inputs = page.inputs;
@@ -89,16 +84,15 @@ pub(crate) fn write(
         ..SceneOptions::default()
     };
     Scene::new(Arc::clone(&layout), &options)?;
-    if let Some(vehicle) = page.envelope {
+    if let Some(vehicle) = look.envelope {
         let any = vehicle.require_any(&layout);
         any.map_err(|reason| ComposeError::NoEnvelope { reason })?;
-        look.envelope = Some(envelope::name(vehicle));
     }
     let progress = out.progress("packing");
     let (name, bytes) = content(inputs, &layout)?;
     let title = page.title;
     let title = title.unwrap_or_else(|| name.split('.').next().unwrap_or_default());
-    let page = make_page(&name, title, &look, &bytes, plan.as_ref())?;
+    let page = make_page(&name, title, look, &bytes, plan.as_ref())?;
     let pack_ms = progress.finish();
     match is_stdout(output) {
         true => print(&page)?,
@@ -134,11 +128,7 @@ fn content(inputs: &[Input], layout: &Layout) -> Result<(String, Vec<u8>), UserE
     };
     // A pipe can be read once only.
     if inputs.len() == 1 && *first == plain && first.path.is_file() {
-        let bytes = std::fs::read(&first.path).map_err(|error| {
-            let message = format!("{}: cannot read the file: {error}", shown_path(&first.path));
-            UserError::new("read", message, "Check the file and its permissions")
-        })?;
-        return Ok((name, bytes));
+        return Ok((name, input::read_bytes(&first.path)?));
     }
     let bytes = exact_arrow(layout, &first.path)?;
     Ok((format!("{}.arrow", stem(&name)), bytes))
