@@ -11,6 +11,9 @@ use crate::tiles::options::NAME;
 pub(crate) const LINE_BYTES: u64 = size_of::<[u32; LINE_WORDS]>() as u64;
 pub(crate) const WORD_BYTES: u64 = size_of::<u32>() as u64;
 
+/// Lines or references that buffers grow to at once.
+const MIN_GROWN: u32 = 1 << 16;
+
 /// Number of lines and of references that fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Capacity {
@@ -48,13 +51,18 @@ impl Capacity {
         }
     }
 
-    /// Grows to what a window has counted, and slightly more.
-    pub(crate) fn grown_to(self, counters: &FrameCounters) -> Self {
+    /// Grows to what a window has counted, and slightly more. Two occlusion passes that overflow
+    /// count too much: what the first does not draw hides nothing from the second. Then capacities
+    /// double at most.
+    pub(crate) fn grown_to(self, counters: &FrameCounters, uses_occlusion: bool) -> Self {
         let grown = |capacity: u32, needed: u32| {
-            if needed > capacity {
-                needed.saturating_add(needed / 32)
-            } else {
-                capacity
+            if needed <= capacity {
+                return capacity;
+            }
+            let needed = needed.saturating_add(needed / 32);
+            match uses_occlusion {
+                true => needed.min(capacity.saturating_mul(2).max(MIN_GROWN)),
+                false => needed,
             }
         };
         Self {

@@ -189,7 +189,8 @@ fn next_step(
     match halves() {
         Some(halves) => Ok(NextStep::Split(halves)),
         None => {
-            let capacity = Capacity::of_strokes(0, frame.needs_ranks(paint)).grown_to(counters);
+            let capacity = Capacity::of_strokes(0, frame.needs_ranks(paint));
+            let capacity = capacity.grown_to(counters, false);
             Err(capacity.over_budget(&r.device.memory))
         }
     }
@@ -207,7 +208,8 @@ fn grow_lines(
     };
     let cached = r.target.cached_lines.take();
     r.target.drop_bindings();
-    let (old, capacity) = (lines.capacity, lines.capacity.grown_to(counters));
+    let old = lines.capacity;
+    let capacity = old.grown_to(counters, r.target.occlusion.is_enabled);
     let is_short = |memory: &Memory| capacity.bytes() > memory.spare_bytes() + old.bytes();
     if is_short(&r.device.memory) {
         r.target.split_lists = None;
