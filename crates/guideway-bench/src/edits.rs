@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use guideway_layout::OwnStyle;
-use guideway_scene::{Edit, Gesture, PathState, RenderError, Scene};
+use guideway_scene::{Coloring, Edit, EditError, Gesture, PathState, RenderError, Scene};
 use guideway_spline::{Affine, Point};
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +38,39 @@ pub enum Way {
     Remove,
     /// They do not move: they get another color and width, and the next frame undoes that.
     Restyle,
+    /// They do not move: the scene takes other colors, as by another column, and the next frame its
+    /// own.
+    Recolor,
+}
+
+/// A change of a prepared scene.
+#[derive(Clone, Copy, Debug)]
+pub enum Change<'a> {
+    /// An edit.
+    Edit(&'a Edit),
+    /// Other colors.
+    Coloring(&'a Coloring),
+}
+
+impl Change<'_> {
+    /// Applies the change to a scene.
+    ///
+    /// # Errors
+    /// When the scene refuses the edit.
+    pub fn apply(self, scene: &mut Scene) -> Result<(), EditError> {
+        match self {
+            Self::Edit(edit) => return scene.edit(edit),
+            Self::Coloring(coloring) => scene.recolor(coloring),
+        }
+        Ok(())
+    }
+}
+
+/// Changes of a kind, and their inverses.
+#[derive(Clone, Debug)]
+enum ThereAndBack {
+    Edits([Edit; 2]),
+    Colorings([Coloring; 2]),
 }
 
 /// A change and its inverse; frames apply them alternately.
@@ -45,7 +78,8 @@ pub enum Way {
 pub struct Edits {
     /// `None` if all frames are edits.
     gestures: Option<[Gesture; 2]>,
-    there_and_back: [Edit; 2],
+    there_and_back: ThereAndBack,
+    path_count: usize,
     before: Arc<Scene>,
     /// Built on the first request.
     after: OnceCell<Arc<Scene>>,
@@ -55,18 +89,23 @@ impl Edits {
     /// Moves a share of the paths, evenly spaced in row order, and at least one.
     pub fn new(scene: &Arc<Scene>, moves: Moves) -> Self {
         let paths = evenly_spaced(scene.row_count(), moves.share);
+        let edits = match moves.way {
+            Way::Apart => move_separately(scene, &paths),
+            Way::Gesture | Way::Drop => [BY_M, BY_M * -1.0].map(|by_m| Edit::Transform {
+                paths: Arc::clone(&paths),
+                by: Affine::translation(by_m),
+            }),
+            Way::Remove => [PathState::Removed, PathState::Shown]
+                .map(|state| Edit::SetStates(paths.iter().map(|&row| (row, state)).collect())),
+            Way::Restyle | Way::Recolor => restyle(scene, &paths),
+        };
         Self {
             gestures: (moves.way == Way::Gesture).then(|| gestures(&paths)),
             there_and_back: match moves.way {
-                Way::Apart => move_separately(scene, &paths),
-                Way::Gesture | Way::Drop => [BY_M, BY_M * -1.0].map(|by_m| Edit::Transform {
-                    paths: Arc::clone(&paths),
-                    by: Affine::translation(by_m),
-                }),
-                Way::Remove => [PathState::Removed, PathState::Shown]
-                    .map(|state| Edit::SetStates(paths.iter().map(|&row| (row, state)).collect())),
-                Way::Restyle => restyle(scene, &paths),
+                Way::Recolor => ThereAndBack::Colorings(colorings(scene, &edits[0])),
+                _ => ThereAndBack::Edits(edits),
             },
+            path_count: paths.len(),
             before: Arc::clone(scene),
             after: OnceCell::new(),
         }
@@ -74,7 +113,7 @@ impl Edits {
 
     /// Number of paths per edit.
     pub fn path_count(&self) -> usize {
-        self.there_and_back[0].paths().count()
+        self.path_count
     }
 
     /// The gesture of frame number `frame`, unless it is an edit.
@@ -82,9 +121,12 @@ impl Edits {
         Some(&self.gestures.as_ref()?[frame % 2])
     }
 
-    /// The edit of frame number `frame`.
-    pub fn edit(&self, frame: usize) -> &Edit {
-        &self.there_and_back[frame % 2]
+    /// The change of frame number `frame`.
+    pub fn change(&self, frame: usize) -> Change<'_> {
+        match &self.there_and_back {
+            ThereAndBack::Edits(edits) => Change::Edit(&edits[frame % 2]),
+            ThereAndBack::Colorings(colorings) => Change::Coloring(&colorings[frame % 2]),
+        }
     }
 
     /// The edited scene of frame number `frame`, for a method that cannot edit in place.
@@ -99,7 +141,8 @@ impl Edits {
             return Ok(after);
         }
         let mut after = Scene::clone(&self.before);
-        after.edit(self.edit(0)).map_err(RenderError::Edit)?;
+        let changed = self.change(0).apply(&mut after);
+        changed.map_err(RenderError::Edit)?;
         Ok(self.after.get_or_init(|| Arc::new(after)))
     }
 }
@@ -141,6 +184,14 @@ fn restyle(scene: &Scene, paths: &[u32]) -> [Edit; 2] {
         Edit::Restyle(paths.iter().map(|&row| (row, other)).collect()),
         Edit::Restyle(paths.iter().map(|&row| (row, own(row))).collect()),
     ]
+}
+
+/// The colors of a scene after an edit of its styles, and its own.
+fn colorings(scene: &Scene, restyle: &Edit) -> [Coloring; 2] {
+    let mut other = scene.clone();
+    // Cannot fail: all rows exist.
+    let _ = other.edit(restyle);
+    [&other, scene].map(|scene| scene.coloring().clone())
 }
 
 /// A share of the rows, at even distances.
@@ -191,13 +242,13 @@ mod tests {
             let moves = Moves { share: 1.0, way };
             let edits = Edits::new(&scene, moves);
             let mut edited = Scene::clone(&scene);
-            edited.edit(edits.edit(0)).unwrap();
+            edits.change(0).apply(&mut edited).unwrap();
             assert_eq!(starts(&edited), starts(edits.scene(0).unwrap()));
             let once = starts(&edited);
             for frame in 1..20 {
-                edited.edit(edits.edit(frame)).unwrap();
+                edits.change(frame).apply(&mut edited).unwrap();
             }
-            edited.edit(edits.edit(20)).unwrap();
+            edits.change(20).apply(&mut edited).unwrap();
             assert_eq!(starts(&edited), once);
             assert_eq!(starts(edits.scene(1).unwrap()), starts(&scene));
         }
@@ -211,14 +262,14 @@ mod tests {
             let look = |row| (scene.state(row), scene.color(row), scene.width_m(row));
             rows.map(look).collect()
         };
-        for way in [Way::Remove, Way::Restyle] {
+        for way in [Way::Remove, Way::Restyle, Way::Recolor] {
             let edits = Edits::new(&scene, Moves { share: 0.2, way });
             let mut edited = Scene::clone(&scene);
-            edited.edit(edits.edit(0)).unwrap();
+            edits.change(0).apply(&mut edited).unwrap();
             let changed = looks(&edited);
             let changed = changed.iter().zip(looks(&scene)).filter(|(a, b)| **a != *b);
             assert_eq!(changed.count(), 20, "{way:?}");
-            edited.edit(edits.edit(1)).unwrap();
+            edits.change(1).apply(&mut edited).unwrap();
             assert_eq!(looks(&edited), looks(&scene), "{way:?}");
         }
     }
@@ -231,6 +282,7 @@ mod tests {
             Way::Apart,
             Way::Remove,
             Way::Restyle,
+            Way::Recolor,
         ] {
             let moves = Moves { share: 0.5, way };
             assert_eq!(Edits::new(&Dataset::D1.scene(0), moves).path_count(), 0);

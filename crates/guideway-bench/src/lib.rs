@@ -39,7 +39,7 @@ mod zoomed_view;
 
 pub use comparison::{Comparison, Contest, Contestant, SceneFacts, ViewFacts, compare};
 pub use dataset::{Dataset, plain_scene};
-pub use edits::{Edits, Moves, Way};
+pub use edits::{Change, Edits, Moves, Way};
 pub use machine::Machine;
 pub use measured::{
     FrameTime, MeasureError, Measured, Outcome, PathCounts, Prepare, Row, StageTime, WorkCounts,

@@ -9,7 +9,7 @@ use guideway_scene::{
 };
 
 use crate::Motion;
-use crate::edits::Edits;
+use crate::edits::{Change, Edits};
 use crate::measured::Prepare;
 
 /// A method with a prepared scene.
@@ -179,7 +179,11 @@ impl<'m> Runner<'m> {
                 is_gesture: true,
             });
         }
-        if let EditOutcome::InPlace { moved_bytes } = self.prepared.edit(edits.edit(number))? {
+        let changed = match edits.change(number) {
+            Change::Edit(edit) => self.prepared.edit(edit)?,
+            Change::Coloring(coloring) => self.prepared.recolor(coloring)?,
+        };
+        if let EditOutcome::InPlace { moved_bytes } = changed {
             return Ok(Update {
                 ms: elapsed_ms(started),
                 bytes: Some(moved_bytes),
@@ -266,7 +270,7 @@ mod tests {
     fn edits_in_place_and_by_preparation_draw_equal_frames() {
         let scene = Dataset::D1.scene(30);
         let size = FrameSize::new(96, 54).unwrap();
-        for way in [Way::Gesture, Way::Drop] {
+        for way in [Way::Gesture, Way::Drop, Way::Recolor] {
             let request = FrameRequest {
                 view: View::fit(size, scene.bounds()).unwrap(),
                 motion: Motion::Edit,

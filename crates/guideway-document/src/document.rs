@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use guideway_layout::Layout;
-use guideway_scene::{
-    Edit, LayoutCopy, LineRule, PathState, Scene, SceneError, SceneOptions, Table, TableEdit,
-};
+use guideway_scene::{Coloring, LayoutCopy, LineRule, Scene, SceneError, SceneOptions};
 use guideway_spline::{Bounds, Point};
 
 use crate::PathSet;
@@ -18,7 +16,8 @@ use crate::pick::{Hit, pick};
 
 /// A layout under inspection and editing.
 ///
-/// Rows are those of the scene and stable under edits; see [`Edit`].
+/// Rows are those of the scene and stable under edits; see
+/// [`guideway_scene::Edit`].
 #[derive(Debug)]
 pub struct Document {
     pub(crate) scene: Scene,
@@ -145,28 +144,15 @@ impl Document {
         self.scene.adopt_copy(copy);
     }
 
-    /// Adopts the colors of another scene of the same layout. Returns false, and changes nothing,
-    /// if that scene has another layout because this one was edited since.
-    pub fn adopt_colors(&mut self, mut scene: Scene) -> bool {
-        let old = &self.scene;
-        if !Arc::ptr_eq(&old.shared_layout(), &scene.shared_layout()) {
-            return false;
+    /// Takes the colors of a layout. Returns false, and changes nothing, if this one was edited
+    /// since.
+    pub fn recolor(&mut self, layout: &Arc<Layout>, coloring: &Coloring) -> bool {
+        let is_same = Arc::ptr_eq(&self.scene.shared_layout(), layout);
+        if is_same {
+            self.scene.recolor(coloring);
+            self.revision += 1;
         }
-        let rows = 0..old.row_count() as u32;
-        let states = rows.map(|path| (path, old.state(path)));
-        let not_shown: Arc<[_]> = states.filter(|(_, s)| *s != PathState::Shown).collect();
-        if !not_shown.is_empty() {
-            // Cannot fail: all rows exist.
-            let _ = scene.edit(&Edit::SetStates(not_shown));
-        }
-        for of in [Table::Nodes, Table::Stations] {
-            let rows = old.removed(of).map(|row| (row, false)).collect();
-            // Cannot fail: all rows exist.
-            let _ = scene.edit(&Edit::Tables(TableEdit::SetExists { of, rows }));
-        }
-        self.scene = scene;
-        self.revision += 1;
-        true
+        is_same
     }
 
     /// The path under the pointer. See [`pick`].

@@ -51,7 +51,7 @@ pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, Prepared};
 pub use ramp::{NumberColors, Palette, round_step};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
-pub use scene::{LayoutCopy, NoOpaqueColor, PathState, Scene, SceneError, SceneOptions};
+pub use scene::{Coloring, LayoutCopy, NoOpaqueColor, PathState, Scene, SceneError, SceneOptions};
 pub use strip::Strip;
 pub use style::{LineRule, Shading, Style};
 pub use table::Table;

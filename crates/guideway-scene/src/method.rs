@@ -8,8 +8,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::{
-    DevicePicture, Edit, Frame, Gesture, Preparation, RenderError, Report, Scene, Strip, Style,
-    View, Work,
+    Coloring, DevicePicture, Edit, Frame, Gesture, Preparation, RenderError, Report, Scene, Strip,
+    Style, View, Work,
 };
 
 /// A renderer. Immutable, so threads can share it.
@@ -114,6 +114,16 @@ pub trait Prepared: Send {
     /// [`RenderError::Budget`] or [`RenderError::Device`] when memory does not suffice; prepare the
     /// scene again then.
     fn edit(&mut self, _edit: &Edit) -> Result<EditOutcome, RenderError> {
+        Ok(EditOutcome::NotInPlace)
+    }
+
+    /// Takes other colors for the paths of the prepared scene, which keep their curves: nothing of
+    /// them is computed or sent again. [`EditOutcome::NotInPlace`] if the method cannot, or the
+    /// colors are those of another layout. Ends the gesture.
+    ///
+    /// # Errors
+    /// As [`Self::edit`].
+    fn recolor(&mut self, _coloring: &Coloring) -> Result<EditOutcome, RenderError> {
         Ok(EditOutcome::NotInPlace)
     }
 

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use guideway_layout::{Layout, Level, NewPath, Quantity, Value};
 use guideway_scene::density::{ToneMap, shade};
-use guideway_scene::{ColorBy, Frame, FrameSize, Palette, Rgba, Scene, SceneError, SceneOptions};
+use guideway_scene::{
+    ColorBy, Edit, Frame, FrameSize, Palette, PathState, Rgba, Scene, SceneError, SceneOptions,
+};
 use guideway_spline::{Point, Runs};
 
 fn layout(paths: usize) -> Layout {
@@ -234,7 +236,13 @@ fn walls_are_gray_below_the_ways_only_where_asked() {
         has_gray_structure: true,
         ..SceneOptions::default()
     };
-    let styled = scene(hall, &options);
+    let mut styled = scene(hall, &options);
+    assert!(as_before.draws_by_rows() && !styled.draws_by_rows());
+    assert_eq!(styled.draw_order(), [2, 0, 1]);
+    let set = |row, state| Edit::SetStates([(row, state)].into());
+    styled.edit(&set(0, PathState::Removed)).unwrap();
+    assert_eq!(styled.draw_order(), [2, 1]);
+    styled.edit(&set(0, PathState::Shown)).unwrap();
     assert_eq!(styled.draw_order(), [2, 0, 1]);
     assert_ne!(styled.color(2), styled.color(0));
     assert_eq!(styled.color(1), as_before.color(1));

@@ -22,7 +22,7 @@ use guideway_scene::{
     Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
     Report, Shading, Stage, Style, View, density, elapsed_ms,
 };
-use guideway_scene::{Edit, Gesture, Scene};
+use guideway_scene::{Coloring, Edit, Gesture, Scene};
 use guideway_spline::{Bounds, Point};
 
 use band::Band;
@@ -133,6 +133,15 @@ impl Prepared for PreparedOracle {
         self.show_gesture(None)?;
         let scene = Arc::make_mut(&mut self.scene);
         scene.edit(edit).map_err(RenderError::Edit)?;
+        Ok(EditOutcome::InPlace { moved_bytes: 0 })
+    }
+
+    fn recolor(&mut self, coloring: &Coloring) -> Result<EditOutcome, RenderError> {
+        if !coloring.suits(&self.scene) {
+            return Ok(EditOutcome::NotInPlace);
+        }
+        self.show_gesture(None)?;
+        Arc::make_mut(&mut self.scene).recolor(coloring);
         Ok(EditOutcome::InPlace { moved_bytes: 0 })
     }
 

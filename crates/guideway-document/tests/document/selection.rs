@@ -2,7 +2,7 @@
 
 use guideway_document::{Document, Query, SelectMode};
 use guideway_layout::Quantity;
-use guideway_scene::{ColorBy, PathState, Scene, SceneOptions};
+use guideway_scene::{ColorBy, Coloring, PathState, SceneOptions};
 use guideway_spline::{Affine, Bounds};
 
 use crate::site::{document, lanes, p};
@@ -58,7 +58,7 @@ fn selections_combine_and_exclude_hidden_paths() {
 }
 
 #[test]
-fn adopting_colors_keeps_hidden_and_removed_paths() {
+fn other_colors_keep_hidden_and_removed_paths() {
     let mut document = document(6);
     document.select([2].into_iter().collect(), SelectMode::Replace);
     document.hide_selection();
@@ -70,8 +70,9 @@ fn adopting_colors_keeps_hidden_and_removed_paths() {
         }),
         ..SceneOptions::default()
     };
-    let by_speed = Scene::new(document.scene().shared_layout(), &by_speed).unwrap();
-    assert!(document.adopt_colors(by_speed.clone()));
+    let layout = document.scene().shared_layout();
+    let by_speed = Coloring::new(&layout, &by_speed).unwrap();
+    assert!(document.recolor(&layout, &by_speed));
     assert!(document.scene().legend().is_some());
     assert_eq!(document.scene().draw_order(), [0, 1, 4, 5]);
     assert_eq!(document.scene().state(3), PathState::Removed);
@@ -80,7 +81,7 @@ fn adopting_colors_keeps_hidden_and_removed_paths() {
     let up = Affine::translation(p(0.0, 1.0));
     document.transform_selection("move", up).unwrap();
     assert!(
-        !document.adopt_colors(by_speed),
+        !document.recolor(&layout, &by_speed),
         "of the layout before that"
     );
 }
@@ -94,8 +95,9 @@ fn a_copy_has_the_attributes_and_color_of_its_original() {
         }),
         ..SceneOptions::default()
     };
-    let by_speed = Scene::new(document.scene().shared_layout(), &by_speed).unwrap();
-    document.adopt_colors(by_speed);
+    let layout = document.scene().shared_layout();
+    let by_speed = Coloring::new(&layout, &by_speed).unwrap();
+    document.recolor(&layout, &by_speed);
     document.select([9].into_iter().collect(), SelectMode::Replace);
     document.copy_selection(1, p(100.0, 0.0)).unwrap();
     assert_eq!(document.scene().color(12), document.scene().color(9));

@@ -111,6 +111,29 @@ impl Memory {
         self.allocate(what, bytes, usage, false)
     }
 
+    /// Replaces a buffer by a larger one with its contents, and zeros behind them. The copy is made
+    /// on the device, after all writes to the old buffer.
+    ///
+    /// # Errors
+    /// As [`Self::zeros`].
+    pub(crate) fn grow(
+        &mut self,
+        what: &'static str,
+        buffer: &mut DeviceBuffer,
+        bytes: u64,
+    ) -> Result<(), RenderError> {
+        let larger = self.zeros(what, bytes, buffer.raw().usage())?;
+        let copied = self.gpu.checked(what, || {
+            let descriptor = wgpu::CommandEncoderDescriptor { label: Some(what) };
+            let mut encoder = self.gpu.device.create_command_encoder(&descriptor);
+            encoder.copy_buffer_to_buffer(buffer.raw(), 0, larger.raw(), 0, buffer.bytes());
+            self.gpu.queue.submit([encoder.finish()]);
+        });
+        copied.map_err(|error| self.device_error(&error))?;
+        *buffer = larger;
+        Ok(())
+    }
+
     /// Creates a storage buffer of these values; at least one.
     ///
     /// # Errors
@@ -121,7 +144,7 @@ impl Memory {
         values: &[T],
     ) -> Result<DeviceBuffer, RenderError> {
         let bytes: &[u8] = bytemuck::cast_slice(values);
-        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         let created = self.allocate(what, bytes.len() as u64, usage, true)?;
         match created.buffer.get_mapped_range_mut(..) {
             Ok(mut view) => view.copy_from_slice(bytes),

@@ -28,7 +28,7 @@ pub use kernel::{Bindings, Kernel, Source};
 pub use memory::{DeviceBuffer, Memory, Reservation};
 pub use options::GpuOptions;
 pub(crate) use patch::Patch;
-pub(crate) use patcher::{PatchTarget, Patcher, SET_BIT};
+pub(crate) use patcher::{PatchTarget, Patcher, SET_BIT, patch_kernel};
 pub use readback::READBACK_USAGE;
 pub use runner::{Dispatch, Runner};
 

@@ -64,6 +64,11 @@ pub(crate) struct PatchTarget<'a> {
     pub(crate) buffer: &'a DeviceBuffer,
 }
 
+/// Compiles the kernel of all patchers.
+pub(crate) fn patch_kernel(gpu: &Gpu) -> Result<Kernel, DeviceError> {
+    Kernel::new(gpu, &PATCH, &[("THREADS", f64::from(THREADS))])
+}
+
 /// The scatter kernel and its staging buffers.
 pub(crate) struct Patcher {
     kernel: Kernel,
@@ -73,11 +78,10 @@ pub(crate) struct Patcher {
 }
 
 impl Patcher {
-    pub(crate) fn new(gpu: &Gpu, memory: &mut Memory) -> Result<Self, RenderError> {
-        let kernel = Kernel::new(gpu, &PATCH, &[("THREADS", f64::from(THREADS))]);
+    pub(crate) fn new(kernel: Kernel, memory: &mut Memory) -> Result<Self, RenderError> {
         let bytes = size_of::<BatchParams>() as u64;
         Ok(Self {
-            kernel: kernel.map_err(|error| memory.device_error(&error))?,
+            kernel,
             batch: memory.zeros(WHAT, bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
             entries: staging(memory, MIN_WORDS)?,
             words: staging(memory, MIN_WORDS)?,

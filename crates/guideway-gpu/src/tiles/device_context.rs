@@ -7,7 +7,7 @@ use guideway_scene::{Budget, RenderError};
 use super::layouts::FrameCounters;
 use super::options::NAME;
 use crate::device::{
-    DeviceBuffer, DeviceError, Gpu, Memory, PatchTarget, Patcher, READBACK_USAGE, Runner,
+    DeviceBuffer, DeviceError, Gpu, Kernel, Memory, PatchTarget, Patcher, READBACK_USAGE, Runner,
 };
 
 /// Device handles of one prepared scene.
@@ -16,10 +16,15 @@ pub(crate) struct DeviceContext {
     pub(crate) memory: Memory,
     pub(crate) runner: Runner,
     counters_readback: DeviceBuffer,
+    patch_kernel: Kernel,
 }
 
 impl DeviceContext {
-    pub(crate) fn new(gpu: Arc<Gpu>, budget: &Budget) -> Result<Self, RenderError> {
+    pub(crate) fn new(
+        gpu: Arc<Gpu>,
+        patch_kernel: Kernel,
+        budget: &Budget,
+    ) -> Result<Self, RenderError> {
         let mut memory = Memory::new(Arc::clone(&gpu), NAME, budget);
         let runner = Runner::new(Arc::clone(&gpu), &mut memory)?;
         let bytes = size_of::<FrameCounters>() as u64;
@@ -29,6 +34,7 @@ impl DeviceContext {
             memory,
             runner,
             counters_readback,
+            patch_kernel,
         })
     }
 
@@ -40,7 +46,7 @@ impl DeviceContext {
     ) -> Result<(&'a mut Patcher, PatchTarget<'a>), RenderError> {
         let patcher = match patcher {
             Some(patcher) => patcher,
-            none => none.insert(Patcher::new(&self.gpu, &mut self.memory)?),
+            none => none.insert(Patcher::new(self.patch_kernel.clone(), &mut self.memory)?),
         };
         let target = PatchTarget {
             gpu: &self.gpu,

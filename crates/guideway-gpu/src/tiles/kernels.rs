@@ -8,7 +8,7 @@ use super::constants::{
 use super::layouts::PointFormat;
 use super::list_limits::unsplit_limits;
 use super::shaders::{self, SortedLists, Team};
-use crate::device::{DeviceError, Gpu, Kernel, Source};
+use crate::device::{DeviceError, Gpu, Kernel, Source, patch_kernel};
 
 /// All kernels of the method.
 #[derive(Clone)]
@@ -25,6 +25,8 @@ pub(crate) struct Kernels {
     /// For short lists and for all others.
     pub(crate) sort_lists: [Kernel; 2],
     pub(crate) scroll: Kernel,
+    /// Takes changes of a scene to their places.
+    pub(crate) patch: Kernel,
     /// By [`Samples`].
     tile_kernels: [TileKernels; 2],
 }
@@ -67,6 +69,7 @@ impl Kernels {
             bin_lines,
             sort_lists: sort_lists(gpu, &[])?,
             scroll: Kernel::new(gpu, &shaders::SCROLL.source(), &[threads])?,
+            patch: patch_kernel(gpu)?,
             tile_kernels: [
                 TileKernels::new(gpu, Samples::Coarse)?,
                 TileKernels::new(gpu, Samples::Fine)?,

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, DevicePicture, Edit, EditOutcome, Frame, Gesture, Preparation, Prepared,
-    RenderError, Report, Scene, Shading, Stage, Style, View, Work, cluster::DirtyClusters, density,
-    elapsed_ms,
+    Budget, Cancel, Coloring, DevicePicture, Edit, EditOutcome, Frame, Gesture, Preparation,
+    Prepared, RenderError, Report, Scene, Shading, Stage, Style, View, Work,
+    cluster::DirtyClusters, density, elapsed_ms,
 };
 
 use super::device_context::{DeviceContext, device_error};
@@ -24,6 +24,7 @@ use super::upload::edit::{self, SceneBufferEdit};
 use super::upload::edit_effect::EditEffect;
 use super::upload::gesture;
 use super::upload::pack::Packing;
+use super::upload::recolor::recolor;
 use super::upload::scene_buffers::SceneBuffers;
 use super::upload::uploaded_scene::UploadedScene;
 
@@ -44,8 +45,9 @@ impl PreparedTiles {
         scene: Arc<Scene>,
         budget: &Budget,
     ) -> Result<Self, RenderError> {
+        let patch_kernel = shared.kernels.patch.clone();
         let mut prepared = Self {
-            device: DeviceContext::new(Arc::clone(&shared.gpu), budget)?,
+            device: DeviceContext::new(Arc::clone(&shared.gpu), patch_kernel, budget)?,
             target: TargetState {
                 reuses_frames: shared.options.reuses_frames,
                 ..TargetState::default()
@@ -105,6 +107,23 @@ impl PreparedTiles {
             self.target.drop_bindings();
         }
         effect.moved_bytes
+    }
+
+    /// Updates the caches after an edit, or uploads the scene again.
+    fn take_outcome(&mut self, outcome: &SceneBufferEdit) -> Result<EditOutcome, RenderError> {
+        if let SceneBufferEdit::Applied(effect) = outcome {
+            let moved_bytes = self.take_effect(effect);
+            return Ok(EditOutcome::InPlace { moved_bytes });
+        }
+        self.upload(Packing::of(&self.scene.scene))?;
+        let bytes = |buffers: &SceneBuffers| {
+            let points = buffers.point_buffers.iter().map(|b| b.points.bytes());
+            let lists = [&buffers.strokes, &buffers.clusters, &buffers.styles];
+            points.sum::<u64>() + lists.map(|b| b.bytes()).iter().sum::<u64>()
+        };
+        Ok(EditOutcome::InPlace {
+            moved_bytes: self.scene.buffers.as_ref().map_or(0, bytes),
+        })
     }
 
     /// Marks what the gesture shows in the caches, at its present place.
@@ -270,20 +289,16 @@ impl Prepared for PreparedTiles {
     fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         self.end_gesture()?;
         let outcome = edit::apply(&mut self.scene, &mut self.device, edit)?;
-        let SceneBufferEdit::Applied(effect) = outcome else {
-            self.upload(Packing::of(&self.scene.scene))?;
-            let bytes = |buffers: &SceneBuffers| {
-                let points = buffers.point_buffers.iter().map(|b| b.points.bytes());
-                let lists = [&buffers.strokes, &buffers.clusters, &buffers.styles];
-                points.sum::<u64>() + lists.map(|b| b.bytes()).iter().sum::<u64>()
-            };
-            return Ok(EditOutcome::InPlace {
-                moved_bytes: self.scene.buffers.as_ref().map_or(0, bytes),
-            });
-        };
-        Ok(EditOutcome::InPlace {
-            moved_bytes: self.take_effect(&effect),
-        })
+        self.take_outcome(&outcome)
+    }
+
+    fn recolor(&mut self, coloring: &Coloring) -> Result<EditOutcome, RenderError> {
+        if !coloring.suits(&self.scene.scene) {
+            return Ok(EditOutcome::NotInPlace);
+        }
+        self.end_gesture()?;
+        let outcome = recolor(&mut self.scene, &mut self.device, coloring)?;
+        self.take_outcome(&outcome)
     }
 
     fn show_gesture(&mut self, gesture: Option<&Gesture>) -> Result<EditOutcome, RenderError> {

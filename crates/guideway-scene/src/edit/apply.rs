@@ -118,15 +118,15 @@ impl Scene {
     /// Gives restyled paths their own colors.
     fn follow_own_colors(&mut self, styles: &[(u32, OwnStyle)]) {
         let rows = self.row_count();
-        let (layout, base) = (&self.layout, self.base);
+        let (layout, base) = (&self.layout, self.coloring.base);
         let own = |path: u32| own_color(layout, base, path);
-        if let Colors::One(one) = self.colors {
+        if let Colors::One(one) = self.coloring.colors {
             if styles.iter().all(|&(path, _)| own(path) == one) {
                 return;
             }
-            self.colors = Colors::Each(vec![one; rows]);
+            self.coloring.colors = Colors::Each(vec![one; rows]);
         }
-        if let Colors::Each(colors) = &mut self.colors {
+        if let Colors::Each(colors) = &mut self.coloring.colors {
             let row = |style: &(u32, OwnStyle)| style.0;
             for_each_row(colors, styles, &row, &|to, &(path, _)| *to = own(path));
         }
@@ -134,12 +134,12 @@ impl Scene {
 
     fn set_color(&mut self, path: u32, color: Rgba) {
         let rows = self.row_count();
-        match &mut self.colors {
+        match &mut self.coloring.colors {
             Colors::One(one) if *one == color => {}
             Colors::One(one) => {
                 let mut colors = vec![*one; rows];
                 colors[path as usize] = color;
-                self.colors = Colors::Each(colors);
+                self.coloring.colors = Colors::Each(colors);
             }
             Colors::Each(colors) => colors[path as usize] = color,
         }
@@ -174,7 +174,7 @@ impl Scene {
             }
         }
         let rows = self.row_count();
-        if let Colors::Each(colors) = &mut self.colors {
+        if let Colors::Each(colors) = &mut self.coloring.colors {
             colors.resize(rows, Rgba::BLACK);
         }
         for (row, path) in (first..).zip(paths) {

@@ -20,8 +20,9 @@ pub(super) fn states(layout: &Layout, level: Option<u32>) -> Vec<PathState> {
     layout.paths.iter().map(state).collect()
 }
 
-/// Rows of the shown paths, lowest draw rank first; `states` is empty if all are shown.
-pub(super) fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
+/// Rows of the shown paths, lowest draw rank first; `states` is empty if all are shown. With
+/// `structure_below`, paths that no vehicle drives come before all others.
+pub(super) fn draw_order(layout: &Layout, states: &[PathState], structure_below: bool) -> Vec<u32> {
     let rows = 0..layout.paths.len() as u32;
     let mut order: Vec<u32> = match states.is_empty() {
         true => rows.into_par_iter().collect(),
@@ -33,6 +34,11 @@ pub(super) fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
     };
     if let Some(rank) = layout.paths.rank() {
         order.sort_by_key(|&path| rank[path as usize]);
+    }
+    if structure_below {
+        let is_driven = |path: &u32| layout.paths.is_driven(*path as usize);
+        let (above, below): (Vec<u32>, _) = order.into_iter().partition(is_driven);
+        order = [below, above].concat();
     }
     order
 }

@@ -3,6 +3,7 @@
 //! | file | content |
 //! |---|---|
 //! | `model` | [`Scene`], its options and queries |
+//! | `coloring` | [`Coloring`]: the color of each path, and what it means |
 //! | `path_state`, `draw_order` | [`PathState`]; the order in which shown paths are drawn |
 //! | `states` | sets and counts states, adds and drops rows |
 //! | `census`, `styles` | counts of colors and widths, kept by edits; what shown paths share |
@@ -12,6 +13,7 @@
 
 mod bounds;
 mod census;
+mod coloring;
 mod draw_order;
 mod error;
 mod level;
@@ -20,7 +22,8 @@ mod path_state;
 mod states;
 mod styles;
 
+pub use coloring::Coloring;
+pub(crate) use coloring::{Colors, own_color};
 pub use error::{NoOpaqueColor, SceneError};
-pub(crate) use model::{Colors, own_color};
 pub use model::{LayoutCopy, Scene, SceneOptions};
 pub use path_state::PathState;

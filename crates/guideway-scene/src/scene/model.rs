@@ -1,6 +1,5 @@
 //! The scene: its options, its queries and the state that edits change.
 
-use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 use guideway_layout::{Hulls, Layout};
@@ -8,17 +7,15 @@ use guideway_spline::Bounds;
 
 use super::bounds::curve_bounds;
 use super::census::StyleCensus;
+use super::coloring::Coloring;
 use super::draw_order::{draw_order, states};
 use super::error::SceneError;
 use super::level::visible_level;
 use super::path_state::PathState;
 use crate::color::Rgba;
-use crate::color_by::{self, ColorBy, Legend};
+use crate::color_by::ColorBy;
 use crate::ramp::NumberColors;
 use crate::table::Table;
-
-/// Color of walls and doors: a contrast of 3:1 on white paper, and 5:1 on dark one.
-const STRUCTURE: Rgba = Rgba::opaque(144, 144, 144);
 
 /// Colors and visible level of a scene.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +32,7 @@ pub struct SceneOptions {
     /// have them in common.
     pub has_common_colors: bool,
     /// Draws walls, doors and lanes of humans in gray below the ways of vehicles, unless a column
-    /// decides the colors. An edit of the scene does not keep the order.
+    /// decides the colors.
     pub has_gray_structure: bool,
 }
 
@@ -43,9 +40,7 @@ pub struct SceneOptions {
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub(crate) layout: Arc<Layout>,
-    pub(crate) colors: Colors,
-    /// Color of paths without a color of their own.
-    pub(crate) base: Rgba,
+    pub(crate) coloring: Coloring,
     /// State per row; empty while all paths are shown.
     pub(crate) states: Vec<PathState>,
     pub(super) removed_count: usize,
@@ -60,7 +55,6 @@ pub struct Scene {
     pub(super) census: OnceLock<StyleCensus>,
     /// Computed on first use after a change.
     bounds: OnceLock<Option<Bounds<f64>>>,
-    legend: Option<Legend>,
 }
 
 /// A copy of a scene's shared layout, made in the background before an edit needs it. See
@@ -79,33 +73,6 @@ impl LayoutCopy {
     }
 }
 
-#[derive(Clone, Debug)]
-pub(crate) enum Colors {
-    One(Rgba),
-    Each(Vec<Rgba>),
-}
-
-impl Colors {
-    /// Makes paths gray that no vehicle drives. Returns `true` if there are any beside others.
-    fn gray_structure(&mut self, layout: &Layout) -> bool {
-        let is_structure = |row: &usize| !layout.paths.is_driven(*row);
-        let rows: Vec<usize> = match layout.paths.column("element") {
-            Some(_) => (0..layout.paths.len()).filter(is_structure).collect(),
-            None => Vec::new(),
-        };
-        if rows.is_empty() || rows.len() == layout.paths.len() {
-            return false;
-        }
-        let mut each = match std::mem::replace(self, Self::One(STRUCTURE)) {
-            Self::One(color) => vec![color; layout.paths.len()],
-            Self::Each(colors) => colors,
-        };
-        rows.into_iter().for_each(|row| each[row] = STRUCTURE);
-        *self = Self::Each(each);
-        true
-    }
-}
-
 impl Scene {
     /// Resolves the styles of a layout.
     ///
@@ -114,33 +81,11 @@ impl Scene {
     pub fn new(layout: Arc<Layout>, options: &SceneOptions) -> Result<Self, SceneError> {
         let level = visible_level(&layout, options.level.as_deref())?;
         let states = states(&layout, level);
-        let mut draw_order = draw_order(&layout, &states);
-        let base = options.color.unwrap_or(Rgba::BLACK);
-        let (mut colors, legend) = match &options.color_by {
-            Some(by) => {
-                let all = match options.has_common_colors {
-                    true => Cow::Owned(self::draw_order(&layout, &[])),
-                    false => Cow::Borrowed(&draw_order[..]),
-                };
-                let resolved = color_by::resolve(&layout, by, &options.numbers, &all);
-                let (colors, legend) = resolved.map_err(|unknown| SceneError::UnknownColumn {
-                    asked: by.column.clone(),
-                    known: unknown.known,
-                })?;
-                (Colors::Each(colors), Some(legend))
-            }
-            None => (own_colors(&layout, base), None),
-        };
-        let is_plain = options.color_by.is_none() && options.has_gray_structure;
-        if is_plain && colors.gray_structure(&layout) {
-            let is_driven = |path: &u32| layout.paths.is_driven(*path as usize);
-            let (above, below): (Vec<u32>, _) = draw_order.into_iter().partition(is_driven);
-            draw_order = [below, above].concat();
-        }
+        let coloring = Coloring::of(&layout, options, &states)?;
+        let draw_order = draw_order(&layout, &states, coloring.structure_below);
         Ok(Self {
             layout,
-            colors,
-            base,
+            coloring,
             states,
             removed_count: 0,
             shown_count: draw_order.len(),
@@ -149,7 +94,6 @@ impl Scene {
             draw_order: draw_order.into(),
             census: OnceLock::new(),
             bounds: OnceLock::new(),
-            legend,
         })
     }
 
@@ -184,7 +128,7 @@ impl Scene {
     /// Rows of the shown paths, lowest draw rank first. Computed on first use after a change of
     /// states, by all threads.
     pub fn draw_order(&self) -> &[u32] {
-        let order = || draw_order(&self.layout, &self.states);
+        let order = || draw_order(&self.layout, &self.states, self.coloring.structure_below);
         self.draw_order.get_or_init(order)
     }
 
@@ -253,14 +197,6 @@ impl Scene {
         }
     }
 
-    /// Color of a path, by row.
-    pub fn color(&self, path: u32) -> Rgba {
-        match &self.colors {
-            Colors::One(color) => *color,
-            Colors::Each(colors) => colors[path as usize],
-        }
-    }
-
     /// The path's own width in meters, if it has one.
     pub fn width_m(&self, path: u32) -> Option<f32> {
         let width_m = *self.layout.paths.width_m()?.get(path as usize)?;
@@ -280,34 +216,8 @@ impl Scene {
         self.layout.paths.geometry().hulls()
     }
 
-    /// Meaning of the colors, if a column decides them.
-    pub fn legend(&self) -> Option<&Legend> {
-        self.legend.as_ref()
-    }
-
-    /// Color of a path when no column decides it.
-    pub(crate) fn own_color(&self, path: u32) -> Rgba {
-        own_color(&self.layout, self.base, path)
-    }
-
     /// Drops the cached bounds; call after curves change.
     pub(crate) fn invalidate_bounds(&mut self) {
         self.bounds = OnceLock::new();
-    }
-}
-
-/// Color of a path when no column decides it.
-pub(crate) fn own_color(layout: &Layout, base: Rgba, path: u32) -> Rgba {
-    let own = layout.paths.own_style(path as usize).color_rgba;
-    own.map_or(base, Rgba::from_u32)
-}
-
-fn own_colors(layout: &Layout, base: Rgba) -> Colors {
-    match layout.paths.color_rgba() {
-        None => Colors::One(base),
-        Some(own) => {
-            let color = |&c: &u32| if c == 0 { base } else { Rgba::from_u32(c) };
-            Colors::Each(own.iter().map(color).collect())
-        }
     }
 }

@@ -5,7 +5,8 @@ use std::sync::{Arc, OnceLock};
 use guideway_layout::{for_each_row, rows_ascend};
 use rayon::prelude::*;
 
-use super::model::{Colors, Scene};
+use super::coloring::Colors;
+use super::model::Scene;
 use super::path_state::PathState;
 
 /// Rows of a task.
@@ -14,8 +15,8 @@ const TASK_ROWS: usize = 1 << 14;
 impl Scene {
     /// Returns `true` if the paths are drawn in the order of their rows.
     pub fn draws_by_rows(&self) -> bool {
-        let is_unknown = self.draw_order.get().is_none();
-        is_unknown && self.layout.paths.rank().is_none() || self.draw_order().is_sorted()
+        let may_differ = self.coloring.structure_below || self.layout.paths.rank().is_some();
+        !may_differ || self.draw_order().is_sorted()
     }
 
     /// Drops all rows of paths, nodes and stations but the first ones, and gives their memory back.
@@ -26,7 +27,7 @@ impl Scene {
     pub fn truncate(&mut self, rows: [usize; 3]) {
         self.layout = Arc::new(self.layout.first_rows(rows));
         let [paths, places @ ..] = rows;
-        if let Colors::Each(colors) = &mut self.colors {
+        if let Colors::Each(colors) = &mut self.coloring.colors {
             colors.truncate(paths);
             colors.shrink_to_fit();
         }
@@ -62,6 +63,14 @@ impl Scene {
         let new: Vec<u32> = (first as u32..rows as u32).collect();
         self.count_new_styles(&new);
         self.order_changed();
+    }
+
+    /// Drops what depends on the colors, and on the draw order if they move paths.
+    pub(super) fn colors_changed(&mut self, moves_paths: bool) {
+        self.census = OnceLock::new();
+        if moves_paths {
+            self.order_changed();
+        }
     }
 
     /// Drops the draw order and the bounds; call after states change.

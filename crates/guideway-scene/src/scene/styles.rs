@@ -3,8 +3,9 @@
 use guideway_layout::rows_ascend;
 
 use super::census::{PathAppearance, StyleCensus, StyleCounts};
+use super::coloring::Colors;
 use super::error::NoOpaqueColor;
-use super::model::{Colors, Scene};
+use super::model::Scene;
 use super::path_state::PathState;
 use crate::color::Rgba;
 
@@ -28,7 +29,7 @@ impl Scene {
 
     /// The color shared by all shown paths, if there is one; black without paths.
     pub fn common_color(&self) -> Option<Rgba> {
-        match &self.colors {
+        match &self.coloring.colors {
             Colors::One(_) if self.shown_count == 0 => Some(Rgba::BLACK),
             Colors::One(color) => Some(*color),
             Colors::Each(_) => self.census().common_color(self.shown_count),
@@ -48,7 +49,7 @@ impl Scene {
 
     /// Returns `true` if all paths are opaque.
     pub fn is_opaque(&self) -> bool {
-        match &self.colors {
+        match &self.coloring.colors {
             Colors::One(color) => color.is_opaque(),
             Colors::Each(_) => self.census().is_opaque(),
         }

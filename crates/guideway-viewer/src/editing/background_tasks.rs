@@ -1,11 +1,12 @@
 //! Background tasks of one document: recoloring, selection by query, check.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use guideway_document::{Document, PathSet, Query, QueryError, SelectMode};
-use guideway_layout::{CheckOptions, shown_path};
-use guideway_scene::{Scene, SceneError, SceneOptions};
+use guideway_layout::{CheckOptions, Layout, shown_path};
+use guideway_scene::{Coloring, SceneError, SceneOptions};
 
 use super::document_slot::DocumentSlot;
 use super::edit_task::EditTask;
@@ -23,7 +24,7 @@ const LONG_CHECK: Duration = Duration::from_secs(1);
 pub(crate) struct BackgroundTasks {
     /// The options that the scene has, or gets when the task in progress is complete.
     options: SceneOptions,
-    recoloring: Option<BackgroundTask<Result<Scene, SceneError>>>,
+    recoloring: Option<BackgroundTask<Result<LayoutColors, SceneError>>>,
     selecting: Option<(BackgroundTask<PathSet>, SelectMode)>,
     checking: Option<BackgroundTask<Findings>>,
     findings: Option<Findings>,
@@ -33,12 +34,15 @@ pub(crate) struct BackgroundTasks {
     unchecked: Option<(u64, CheckOptions, f64)>,
 }
 
+/// A layout and its colors.
+type LayoutColors = (Arc<Layout>, Arc<Coloring>);
+
 /// The result of a background task that concerns the open file.
 pub(crate) enum TaskEvent {
     /// An edit to run on the document.
     Edit(EditTask),
-    /// The scene has other colors.
-    Recolored,
+    /// The scene has these colors now.
+    Recolored(Arc<Coloring>),
     /// A notice for the user.
     Notice(Notice),
 }
@@ -109,8 +113,11 @@ impl BackgroundTasks {
     fn start_recoloring(&mut self, document: &Document, repaint: &RepaintHandle) {
         self.colored = document.values_revision();
         let (layout, options) = (document.scene().shared_layout(), self.options.clone());
-        let task = BackgroundTask::start(repaint, move || Scene::new(layout, &options));
-        self.recoloring = Some(task);
+        let color = move || {
+            let coloring = Coloring::new(&layout, &options)?;
+            Ok((layout, Arc::new(coloring)))
+        };
+        self.recoloring = Some(BackgroundTask::start(repaint, color));
     }
 
     /// Selects the paths that match a query.
@@ -236,13 +243,13 @@ impl BackgroundTasks {
         let result = self.recoloring.as_ref().and_then(BackgroundTask::result)?;
         self.recoloring = None;
         match result {
-            Ok(Ok(scene)) => {
-                let is_adopted = document.adopt_colors(scene);
-                if !is_adopted {
+            Ok(Ok((layout, coloring))) => {
+                let is_recolored = document.recolor(&layout, &coloring);
+                if !is_recolored {
                     // The layout was edited in the meantime.
                     self.start_recoloring(document, repaint);
                 }
-                is_adopted.then_some(TaskEvent::Recolored)
+                is_recolored.then_some(TaskEvent::Recolored(coloring))
             }
             Ok(Err(error)) => {
                 let name = file.file_name().unwrap_or(file.as_os_str());

@@ -35,7 +35,7 @@ impl Layer {
         for event in self.tasks.poll(&mut self.slot, &home, repaint) {
             match event {
                 TaskEvent::Edit(task) => events.extend(self.run(task, EDIT_WAIT, repaint)),
-                TaskEvent::Recolored => self.send_scene(),
+                TaskEvent::Recolored(coloring) => self.picture.recolor(coloring),
                 TaskEvent::Notice(notice) => events.push(LayerEvent::Notice(notice)),
             }
         }

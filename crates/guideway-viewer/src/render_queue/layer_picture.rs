@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
 
 use eframe::egui::{Context, TextureHandle, TextureId, TextureOptions};
-use guideway_scene::{Gesture, Report, Scene, View};
+use guideway_scene::{Coloring, Gesture, Report, Scene, View};
 use guideway_spline::Affine;
 
 use super::method_selection::FALLBACK_METHOD;
@@ -96,6 +96,11 @@ impl LayerPicture {
     /// Replaces the scene.
     pub(crate) fn set_scene(&self, scene: Arc<Scene>) {
         self.renderer.set_scene(scene);
+    }
+
+    /// Gives the scene other colors.
+    pub(crate) fn recolor(&self, coloring: Arc<Coloring>) {
+        self.renderer.recolor(coloring);
     }
 
     /// Replaces the render method.

@@ -6,7 +6,7 @@
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 use guideway_document::SceneChange;
-use guideway_scene::{Cancel, Edit, Gesture, Scene};
+use guideway_scene::{Cancel, Coloring, Edit, Gesture, Scene};
 
 use super::RenderRequest;
 
@@ -35,6 +35,7 @@ struct Mailbox {
 pub(super) enum SceneUpdate {
     Scene(Arc<Scene>),
     Edit(Edit),
+    Coloring(Arc<Coloring>),
     /// A gesture to show, or its end. Only the newest of several in a row counts.
     Gesture(Option<Gesture>),
     Method(String),

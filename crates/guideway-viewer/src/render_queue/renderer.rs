@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::thread::JoinHandle;
 
-use guideway_scene::{Gesture, Scene};
+use guideway_scene::{Coloring, Gesture, Scene};
 
 use super::queue::{RenderQueue, SceneUpdate};
 use super::request::RenderRequest;
@@ -58,6 +58,11 @@ impl Renderer {
     /// Replaces the scene.
     pub(crate) fn set_scene(&self, scene: Arc<Scene>) {
         self.queue.update(SceneUpdate::Scene(scene));
+    }
+
+    /// Gives the scene other colors.
+    pub(super) fn recolor(&self, coloring: Arc<Coloring>) {
+        self.queue.update(SceneUpdate::Coloring(coloring));
     }
 
     /// Shows a gesture, or the scene without one.

@@ -137,11 +137,20 @@ impl Worker {
                     (None, Some(scene)) => Arc::make_mut(scene).edit(&edit).is_ok(),
                     (None, None) => false,
                 };
-                if !is_applied {
-                    // The next request asks the window for the current scene.
-                    self.prepared = None;
-                    self.scene = None;
-                }
+                self.forget_unless(is_applied);
+            }
+            SceneUpdate::Coloring(coloring) => {
+                let is_applied = match (&mut self.prepared, &mut self.scene) {
+                    (Some(prepared), _) => {
+                        matches!(prepared.recolor(&coloring), Ok(EditOutcome::InPlace { .. }))
+                    }
+                    (None, Some(scene)) if coloring.suits(scene) => {
+                        Arc::make_mut(scene).recolor(&coloring);
+                        true
+                    }
+                    _ => false,
+                };
+                self.forget_unless(is_applied);
             }
             SceneUpdate::Method(name) => {
                 self.method_name = name;
@@ -150,6 +159,15 @@ impl Worker {
             }
         }
         true
+    }
+
+    /// Forgets a scene that has not taken a change: the next request asks the window for the
+    /// current one.
+    fn forget_unless(&mut self, is_applied: bool) {
+        if !is_applied {
+            self.prepared = None;
+            self.scene = None;
+        }
     }
 
     fn render(&mut self, request: RenderRequest, cancel: &Cancel) {

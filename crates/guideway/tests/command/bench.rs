@@ -62,6 +62,7 @@ fn edits_move_the_requested_share_but_at_least_one_path() {
     for (flag, text) in [
         ("--remove", "removed by each frame or restored"),
         ("--restyle", "restyled by each frame"),
+        ("--recolor", "in other colors each frame"),
     ] {
         let said = stdout(&tiny(&["--methods", "cpu", "--motion", "edit", flag]));
         assert!(said.contains(text), "{said}");

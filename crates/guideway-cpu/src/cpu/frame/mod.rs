@@ -2,13 +2,15 @@
 //!
 //! | module            | does                                                                     |
 //! |-------------------|--------------------------------------------------------------------------|
-//! | `prepared`        | owns the scene and what lasts between frames; renders and applies edits  |
+//! | `prepared`        | owns the scene and what lasts between frames; renders                    |
+//! | `changes`         | applies edits, colors and gestures                                       |
 //! | `clusters`        | clusters, cached lines and styles of the scene                           |
 //! | `memory`          | plans a frame within the budget                                          |
 //! | `pipeline`        | runs the stages for the bands of a frame                                 |
 //! | `flatten_visible` | flattens the visible clusters of a band                                  |
 //! | `picture_cache`   | reuses the last picture after a pan or an edit                           |
 
+mod changes;
 pub(super) mod clusters;
 pub(super) mod flatten_visible;
 pub(super) mod memory;

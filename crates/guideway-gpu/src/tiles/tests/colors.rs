@@ -1,5 +1,8 @@
 //! Opaque paths in many colors: the topmost path is visible for any list length and any ranks.
 
+use guideway_layout::Value;
+use guideway_scene::{Edit, PathState, Rgba};
+
 use super::*;
 
 /// An opaque color for each path, a width for some.
@@ -44,6 +47,44 @@ fn dominated_by_one_path() -> Layout {
         add(&mut layout, &runs);
     }
     layout
+}
+
+#[test]
+fn walls_stay_below_the_ways_after_edits() {
+    let Some(tiles) = tiles() else { return };
+    let mut layout = layout(400, 6.0);
+    for row in (1..400).step_by(2) {
+        let attributes = &mut layout.paths.attributes;
+        attributes.set(row, "element", Value::Text("wall"));
+    }
+    let options = SceneOptions {
+        has_gray_structure: true,
+        ..SceneOptions::default()
+    };
+    let walls = Scene::new(Arc::new(layout.clone()), &options).unwrap();
+    // The same by ranks and own colors.
+    let Rgba { r, g, b, a } = walls.color(1);
+    let gray = OwnStyle {
+        width_m: None,
+        color_rgba: Some(u32::from_be_bytes([r, g, b, a])),
+    };
+    for row in 0..400 {
+        layout.paths.set_path_rank(row, 1 - row as i32 % 2);
+        if row % 2 == 1 {
+            layout.paths.set_own_style(row, gray);
+        }
+    }
+    let style = Style::default();
+    let by_ranks = scene(layout);
+    let (expected, _) = picture(&mut prepared(&tiles, &by_ranks), &all(), &style);
+    let mut walls = prepared(&tiles, &Arc::new(walls));
+    let mut pictures = vec![picture(&mut walls, &all(), &style).0];
+    for state in [PathState::Hidden, PathState::Shown] {
+        let edit = Edit::SetStates((0..9).map(|row| (row, state)).collect());
+        walls.edit(&edit).unwrap();
+        pictures.push(picture(&mut walls, &all(), &style).0);
+    }
+    assert!(pictures[0] == expected && pictures[2] == expected && pictures[1] != expected);
 }
 
 /// A translucent path out of sight makes the method sort whole lists and use another kernel.

@@ -143,7 +143,7 @@ fn edit_refreshes_only_the_lines_of_its_clusters() {
             pair.cached.target.has_few_clusters = has_few;
             pair.check(&view(step));
         }
-        let mut refreshed = 0;
+        let (mut refreshed, mut overflows) = (0, 0);
         for (edit, step) in edits(&scene).iter().zip(1..) {
             // Views of one LOD, never the previous view, so that no picture is reused.
             let (before, report) = pair.check(&view(2 * step));
@@ -151,10 +151,12 @@ fn edit_refreshes_only_the_lines_of_its_clusters() {
             pair.edit(edit);
             let (after, report) = pair.check(&view(2 * step + 1));
             assert!(before != after);
-            refreshed += usize::from(has_stage(&report, "invalidate"));
-            assert!(!has_stage(&report, "cull") || !has_stage(&report, "invalidate"));
+            let is_refreshed = has_stage(&report, "invalidate");
+            refreshed += usize::from(is_refreshed);
+            overflows += usize::from(is_refreshed && has_stage(&report, "cull"));
         }
-        assert!(refreshed >= 6, "{refreshed}");
+        // The first new lines may exceed the line buffers, which then grow.
+        assert!(refreshed >= 6 && overflows <= 1, "{refreshed} {overflows}");
         // Two edits, and a view of another LOD in between.
         let [first, second] = [0, 7].map(|i| edits(&scene)[i].clone());
         pair.edit(&first);

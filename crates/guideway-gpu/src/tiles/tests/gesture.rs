@@ -136,6 +136,32 @@ fn frames_of_a_gesture_upload_only_its_clusters() {
 }
 
 #[test]
+fn next_gesture_keeps_the_cached_lines_of_others() {
+    let Some(tiles) = tiles() else { return };
+    let (scene, style) = (plain(6400, 2.0), Style::default());
+    let (mut cached, mut uncached) = (prepared(&tiles, &scene), prepared(&tiles, &scene));
+    uncached.target.reuses_frames = false;
+    let mut sent = Vec::new();
+    for (first, by) in maps().into_iter().enumerate().skip(1) {
+        let paths: Arc<[u32]> = (first as u32..6400).step_by(400).collect();
+        let gesture = gesture(&paths, by);
+        for gesture in [Some(&gesture), None] {
+            let outcome = cached.show_gesture(gesture).unwrap();
+            sent.extend(gesture.map(|_| outcome));
+            uncached.show_gesture(gesture).unwrap();
+            let (drawn, _) = picture(&mut cached, &all(), &style);
+            assert!(drawn == picture(&mut uncached, &all(), &style).0, "{by:?}");
+        }
+    }
+    // Lists grow on the device: only what is new is sent.
+    let most = sent.iter().map(|outcome| match outcome {
+        EditOutcome::InPlace { moved_bytes } => *moved_bytes,
+        EditOutcome::NotInPlace => u64::MAX,
+    });
+    assert!(most.max().unwrap() < 4000, "{sent:?}");
+}
+
+#[test]
 fn gesture_without_memory_shows_the_scene() {
     let Some(tiles) = tiles() else { return };
     let (scene, style) = (scene(dense(3000, 1.0)), Style::default());

@@ -19,7 +19,7 @@ pub(crate) enum DrawRanks {
 
 impl DrawRanks {
     pub(crate) fn of(scene: &Scene) -> Self {
-        if scene.layout().paths.rank().is_none() {
+        if scene.draws_by_rows() {
             return Self::Rows;
         }
         let rows = scene.draw_order().to_vec();

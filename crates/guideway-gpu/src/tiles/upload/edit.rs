@@ -170,7 +170,7 @@ fn complete_styles(
             };
             buffers.fill_styles(device, &mut uploaded.patcher, scene, style)?
         }
-        None => buffers.upload_styles(&device.gpu, &mut device.memory, scene)?,
+        None => buffers.send_styles(device, scene)?,
     };
     uploaded.facts.styles = buffers.style_count;
     effect.replaces_buffers = true;
@@ -306,11 +306,11 @@ fn send(
     else {
         return Ok(());
     };
-    let mut is_uploaded = false;
+    let first_new = buffers.cluster_list.len();
     let appends = !moved_parts.is_empty();
     if appends {
         let packed = Packed::of(&uploaded.scene, moved_parts, uploaded.packing.exact());
-        let (strokes, clusters) = (buffers.stroke_list.len(), buffers.cluster_list.len());
+        let (strokes, clusters) = (buffers.stroke_list.len(), first_new);
         let index = buffers.append(&device.gpu, &mut device.memory, &packed)?;
         path_strokes.append(buffers, strokes, clusters, uploaded.scene.row_count());
         let first_point = buffers.cluster_list[clusters].first_point;
@@ -318,26 +318,23 @@ fn send(
         let first_word = first_point as usize * PointFormat::Exact.words();
         points.set_all(first_word, &packed.exact_m);
         patches.add_finished(Target::Points(index), points);
-        is_uploaded = buffers.grow(&device.gpu, &mut device.memory)?;
-        let new_strokes = strokes as u32..buffers.stroke_list.len() as u32;
-        patches.strokes.extend(new_strokes);
+        effect.moved_bytes += buffers.send_new(device, [strokes, clusters])?;
         for cluster in clusters..buffers.cluster_list.len() {
-            patches.clusters.add(cluster);
             patches.dirty.add(cluster);
             patches.recounted.add(cluster);
         }
     }
     buffers.count_whole_paths(patches.recounted.iter());
-    for cluster in patches.clusters.iter() {
+    for cluster in patches
+        .clusters
+        .iter()
+        .chain(first_new..buffers.cluster_list.len())
+    {
         let reach_m = f64::from(buffers.cluster_list[cluster].reach_m());
         uploaded.facts.reach_m = uploaded.facts.reach_m.max(reach_m);
     }
     uploaded.facts.clusters = buffers.cluster_list.len() as u32;
-    if is_uploaded {
-        effect.moved_bytes += buffers.strokes.bytes() + buffers.clusters.bytes();
-    }
-    effect.moved_bytes += patches.send(buffers, &mut uploaded.patcher, device, is_uploaded)?;
-    effect.loses_lines |= is_uploaded;
+    effect.moved_bytes += patches.send(buffers, &mut uploaded.patcher, device)?;
     if appends {
         uploaded.write_dispatches(device)?;
         effect.replaces_buffers = true;

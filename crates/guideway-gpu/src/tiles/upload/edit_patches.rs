@@ -44,24 +44,20 @@ impl EditPatches {
         self.finished.entry(target).or_default().push(patch);
     }
 
-    /// Sends all patches, but for the lists of strokes and clusters if these were uploaded anew.
-    /// Returns the bytes sent.
+    /// Sends all patches. Returns the bytes sent.
     pub(crate) fn send(
         &self,
         buffers: &SceneBuffers,
         patcher: &mut Option<Patcher>,
         device: &mut DeviceContext,
-        is_uploaded: bool,
     ) -> Result<u64, RenderError> {
         let (mut strokes, mut clusters) = (Patch::default(), Patch::default());
-        if !is_uploaded {
-            for &stroke in &self.strokes {
-                let flagged = buffers.flagged_stroke(stroke);
-                strokes.set(stroke as usize * STROKE_WORDS, &flagged);
-            }
-            for cluster in self.clusters.iter() {
-                clusters.set(cluster * CLUSTER_WORDS, &buffers.cluster_list[cluster]);
-            }
+        for &stroke in &self.strokes {
+            let flagged = buffers.flagged_stroke(stroke);
+            strokes.set(stroke as usize * STROKE_WORDS, &flagged);
+        }
+        for cluster in self.clusters.iter() {
+            clusters.set(cluster * CLUSTER_WORDS, &buffers.cluster_list[cluster]);
         }
         let lists = [(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
         let finished = self.finished.iter();

@@ -11,12 +11,11 @@ use guideway_spline::Affine;
 use rayon::prelude::*;
 
 use super::edit_effect::EditEffect;
-use super::edit_patches::{EditPatches, STROKE_WORDS};
+use super::edit_patches::STROKE_WORDS;
 use super::pack::Packed;
-use super::path_parts::PathPart;
 use super::path_strokes::{PathStrokes, cluster_of};
 use super::point_buffer::ViewDistance;
-use super::scene_buffers::SceneBuffers;
+use super::scene_buffers::{SceneBuffers, parts_of};
 use super::shown_gesture::ShownGesture;
 use super::uploaded_scene::UploadedScene;
 use crate::device::{Patcher, SET_BIT};
@@ -44,9 +43,11 @@ impl Selection {
         let parts_of = |cluster: &Cluster| {
             let strokes = cluster.first_stroke..cluster.first_stroke + cluster.strokes;
             let drawn = strokes.clone().filter(|stroke| buffers.is_drawn(*stroke));
-            let drawn = drawn.count();
-            let parts: Vec<u32> = strokes.filter(is_part).map(row).collect();
-            (parts.len() < drawn || drawn == 0).then_some(parts)
+            let (drawn, parts) = (drawn.count(), strokes.clone().filter(is_part).count());
+            (parts < drawn || drawn == 0).then(|| match parts {
+                0 => Vec::new(),
+                _ => strokes.filter(is_part).map(row).collect::<Vec<u32>>(),
+            })
         };
         let clusters = buffers.cluster_list.par_iter().with_min_len(TASK_CLUSTERS);
         let parts: Vec<Option<Vec<u32>>> = clusters.map(parts_of).collect();
@@ -108,27 +109,21 @@ pub(crate) fn begin(
         let path_strokes = &mut uploaded.path_strokes;
         path_strokes.get_or_insert_with(|| PathStrokes::of(buffers, rows));
     }
-    let mut parts = Vec::new();
-    for &path in &selection.split_paths {
-        if let Some(rank) = buffers.ranks.rank(path) {
-            PathPart::of_path(scene.layout(), path, rank, &mut parts);
-        }
-    }
+    let parts = parts_of(scene, &buffers.ranks, &selection.split_paths);
     let packed = Packed::of(scene, parts, uploaded.packing.exact());
     let [clusters, strokes] = [buffers.cluster_list.len(), buffers.stroke_list.len()];
     let point_buffers = buffers.point_buffers.len();
     effect.moved_bytes += size_of_val(packed.exact_m.as_slice()) as u64;
     buffers.append_apart(&device.gpu, &mut device.memory, packed)?;
     uploaded.is_incomplete = true;
-    let mut patches = EditPatches::default();
     buffers.hidden.grow(strokes);
     let hidden = selection.split_strokes;
     for &stroke in &hidden {
         buffers.hidden.set(stroke, true);
-        patches.dirty.add(cluster_of(buffers, stroke));
+        effect.dirty.add(cluster_of(buffers, stroke));
     }
     let own = clusters..buffers.cluster_list.len();
-    buffers.count_whole_paths(patches.dirty.iter().chain(own.clone()));
+    buffers.count_whole_paths(effect.dirty.iter().chain(own.clone()));
     let mapped = selection.whole.into_iter().chain(own.clone());
     let at_rest = mapped.map(|index| (index, buffers.cluster_list[index]));
     let at_rest: Vec<_> = at_rest.collect();
@@ -149,23 +144,15 @@ pub(crate) fn begin(
         facts: uploaded.facts,
     };
     if !own.is_empty() {
-        effect.loses_lines = buffers.grow(&device.gpu, &mut device.memory)?;
+        effect.moved_bytes += buffers.send_new(device, [strokes, clusters])?;
         effect.replaces_buffers = true;
-        let own_strokes = strokes as u32..buffers.stroke_list.len() as u32;
-        patches.strokes.extend(own_strokes);
-        if effect.loses_lines {
-            effect.moved_bytes += buffers.strokes.bytes() + buffers.clusters.bytes();
-        }
     }
     uploaded.facts.clusters = buffers.cluster_list.len() as u32;
     let entries: Vec<u32> = shown.hidden.iter().map(|stroke| stroke | SET_BIT).collect();
     effect.moved_bytes += flag_strokes(buffers, &mut uploaded.patcher, device, entries)?;
-    let is_uploaded = effect.loses_lines;
-    effect.moved_bytes += patches.send(buffers, &mut uploaded.patcher, device, is_uploaded)?;
     if effect.replaces_buffers {
         uploaded.write_dispatches(device)?;
     }
-    effect.dirty = patches.dirty;
     uploaded.gesture = Some(shown);
     uploaded.is_incomplete = false;
     Ok(effect)

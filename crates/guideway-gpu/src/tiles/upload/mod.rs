@@ -12,6 +12,7 @@
 //! | `near_upload` | uploads exact points of near clusters |
 //! | `shown_gesture`, `gesture` | shows the paths of a gesture by mapping their clusters |
 //! | `edit`, `edit_patches`, `edit_effect` | applies an edit; what that means for cached frames |
+//! | `recolor` | other colors for all paths |
 //! | `rewrite`, `states`, `style_changes` | new curves, states and styles, by all threads |
 
 pub(crate) mod cluster;
@@ -28,6 +29,7 @@ pub(crate) mod pack;
 pub(crate) mod path_parts;
 pub(crate) mod path_strokes;
 pub(crate) mod point_buffer;
+pub(crate) mod recolor;
 mod rewrite;
 pub(crate) mod scene_buffers;
 pub(crate) mod shown_gesture;

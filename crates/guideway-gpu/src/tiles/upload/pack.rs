@@ -19,7 +19,7 @@ const STEPS_PER_SCENE: f64 = (1 << 20) as f64;
 const MAX_STEPS: f64 = 32_000.0;
 
 /// Parts that one task packs: whole clusters.
-const TASK_PARTS: usize = 256 * CLUSTER_STROKES as usize;
+const TASK_PARTS: usize = 32 * CLUSTER_STROKES as usize;
 
 /// Packing parameters of a scene while it is on the device.
 #[derive(Clone, Copy)]

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
+use bytemuck::Zeroable;
 use guideway_scene::{RenderError, Rgba, Scene};
 use rayon::prelude::*;
 use wgpu::BufferUsages;
@@ -13,18 +14,25 @@ use super::pack::{Packed, device_color, path_style};
 use super::path_parts::PathPart;
 use super::point_buffer::{PointBuffer, ViewDistance, buffer_ranges};
 use crate::device::{DeviceBuffer, Gpu, Memory, Patcher};
-use crate::tiles::device_context::DeviceContext;
+use crate::tiles::device_context::{DeviceContext, device_error};
 use crate::tiles::layouts::{Cluster, ClusterSlot, FrameCounters, PathStyle, PointFormat, Stroke};
 use crate::tiles::options::NAME;
 
 /// Least capacity of a point buffer for edited paths, in points.
 const MIN_EDIT_POINTS: u32 = 1 << 14;
 
+/// Buffers grow in steps of this size.
+const SPARE_STEP_BYTES: u64 = 1 << 12;
+/// Slots that the counters before the slots take the place of.
+const SLOTS_OF_COUNTERS: usize = size_of::<FrameCounters>() / size_of::<ClusterSlot>();
+const _: () = assert!(size_of::<FrameCounters>().is_multiple_of(size_of::<ClusterSlot>()));
+const COUNTERS: &str = "the list of visible clusters";
+
 /// Clusters whose paths one task counts.
 const TASK_CLUSTERS: usize = 256;
 
 /// Paths that one task cuts into parts.
-const TASK_PATHS: usize = 1 << 14;
+const TASK_PATHS: usize = 1 << 11;
 
 /// Buffers of a scene.
 pub(crate) struct SceneBuffers {
@@ -100,18 +108,23 @@ impl SceneBuffers {
         Ok(size_of::<PathStyle>() as u64)
     }
 
-    /// Uploads all styles anew. Returns their bytes.
-    pub(crate) fn upload_styles(
+    /// Sends all styles, to a new buffer if their number has changed. Returns their bytes.
+    pub(crate) fn send_styles(
         &mut self,
-        gpu: &Gpu,
-        memory: &mut Memory,
+        device: &mut DeviceContext,
         scene: &Scene,
     ) -> Result<u64, RenderError> {
         let list = style_list(scene, &self.ranks);
-        let bytes = size_of_val(list.as_slice()) as u64;
-        check_binding(gpu, "the styles", bytes)?;
-        self.styles = memory.upload("the styles", &list)?;
-        self.style_count = list.len() as u32;
+        let (what, bytes) = ("the styles", size_of_val(list.as_slice()) as u64);
+        if list.len() == self.style_count as usize {
+            let parts = [bytemuck::cast_slice(&list)];
+            let written = device.runner.write_parts(what, &self.styles, &parts);
+            written.map_err(device_error)?;
+        } else {
+            check_binding(&device.gpu, what, bytes)?;
+            self.styles = device.memory.upload(what, &list)?;
+            self.style_count = list.len() as u32;
+        }
         Ok(bytes)
     }
 
@@ -155,7 +168,7 @@ impl SceneBuffers {
         Ok(index)
     }
 
-    /// Appends clusters in point buffers of their own. [`Self::grow`] makes room for the lists.
+    /// Appends clusters in point buffers of their own. [`Self::send_new`] sends the lists.
     pub(crate) fn append_apart(
         &mut self,
         gpu: &Gpu,
@@ -225,23 +238,46 @@ impl SceneBuffers {
         }
     }
 
-    /// Grows the buffers of strokes and clusters to hold their lists. Returns whether it has
-    /// uploaded them anew.
-    pub(crate) fn grow(&mut self, gpu: &Gpu, memory: &mut Memory) -> Result<bool, RenderError> {
-        let holds = |buffer: &DeviceBuffer, bytes: usize| buffer.bytes() >= bytes as u64;
-        let strokes_bytes = size_of_val(self.stroke_list.as_slice());
-        let clusters_bytes = size_of_val(self.cluster_list.as_slice());
-        if holds(&self.strokes, strokes_bytes) && holds(&self.clusters, clusters_bytes) {
-            return Ok(false);
-        }
-        check_binding(gpu, "the strokes", strokes_bytes as u64)?;
-        let strokes = 0..self.stroke_list.len() as u32;
+    /// Makes room on the device for the strokes and clusters from these indices on, and sends them.
+    /// Returns the bytes sent.
+    pub(crate) fn send_new(
+        &mut self,
+        device: &mut DeviceContext,
+        [first_stroke, first_cluster]: [usize; 2],
+    ) -> Result<u64, RenderError> {
+        let (gpu, memory) = (&device.gpu, &mut device.memory);
+        let (strokes, clusters) = (self.stroke_list.len(), self.cluster_list.len());
+        grow_to(
+            gpu,
+            memory,
+            "the strokes",
+            &mut self.strokes,
+            strokes * size_of::<Stroke>(),
+        )?;
+        let bytes = clusters * size_of::<Cluster>();
+        grow_to(gpu, memory, "the clusters", &mut self.clusters, bytes)?;
+        grow_to(
+            gpu,
+            memory,
+            COUNTERS,
+            &mut self.counters,
+            counters_bytes(clusters),
+        )?;
+        let strokes = first_stroke as u32..strokes as u32;
         let strokes: Vec<Stroke> = strokes.map(|stroke| self.flagged_stroke(stroke)).collect();
-        self.strokes = upload_with_spare(memory, "the strokes", &strokes)?;
-        self.clusters = upload_with_spare(memory, "the clusters", &self.cluster_list)?;
-        let capacity = self.clusters.bytes() as usize / size_of::<Cluster>();
-        self.counters = counters(memory, capacity)?;
-        Ok(true)
+        let clusters = &self.cluster_list[first_cluster..];
+        let (runner, first_stroke) = (&device.runner, first_stroke as u32);
+        let written = runner.write_at("the strokes", &self.strokes, first_stroke, &strokes);
+        written.map_err(device_error)?;
+        let first_cluster = first_cluster as u32;
+        let written = runner.write_at("the clusters", &self.clusters, first_cluster, clusters);
+        written.map_err(device_error)?;
+        // Clusters of an earlier gesture may have left their line blocks.
+        let slots = vec![ClusterSlot::zeroed(); clusters.len()];
+        let first_slot = (SLOTS_OF_COUNTERS + first_cluster as usize) as u32;
+        let written = runner.write_at(COUNTERS, &self.counters, first_slot, &slots);
+        written.map_err(device_error)?;
+        Ok((size_of_val(strokes.as_slice()) + size_of_val(clusters)) as u64)
     }
 }
 
@@ -279,20 +315,26 @@ fn upload_points(
     Ok(buffers)
 }
 
-/// Uploads values with room for a quarter more.
-fn upload_with_spare<T: bytemuck::Pod>(
+/// Grows a buffer that is too small, to a quarter more than needed as far as bindings allow.
+fn grow_to(
+    gpu: &Gpu,
     memory: &mut Memory,
     what: &'static str,
-    values: &[T],
-) -> Result<DeviceBuffer, RenderError> {
-    let mut padded = values.to_vec();
-    padded.resize(values.len() + values.len() / 4 + 64, T::zeroed());
-    memory.upload(what, &padded)
+    buffer: &mut DeviceBuffer,
+    bytes: usize,
+) -> Result<(), RenderError> {
+    let needed = bytes as u64;
+    if buffer.bytes() >= needed {
+        return Ok(());
+    }
+    check_binding(gpu, what, needed)?;
+    let with_spare = (needed + needed / 4).next_multiple_of(SPARE_STEP_BYTES);
+    memory.grow(what, buffer, with_spare.min(gpu.max_binding_bytes()))
 }
 
-/// The parts of all drawn paths.
-pub(crate) fn all_parts(scene: &Scene, ranks: &DrawRanks) -> Vec<PathPart> {
-    let tasks = scene.draw_order().par_chunks(TASK_PATHS).map(|paths| {
+/// The parts of some paths, in their order. All threads share the work.
+pub(crate) fn parts_of(scene: &Scene, ranks: &DrawRanks, paths: &[u32]) -> Vec<PathPart> {
+    let tasks = paths.par_chunks(TASK_PATHS).map(|paths| {
         let mut parts = Vec::with_capacity(paths.len());
         for &path in paths {
             if let Some(rank) = ranks.rank(path) {
@@ -321,9 +363,13 @@ fn style_list(scene: &Scene, ranks: &DrawRanks) -> Vec<PathStyle> {
 }
 
 fn counters(memory: &mut Memory, clusters: usize) -> Result<DeviceBuffer, RenderError> {
-    let bytes = size_of::<FrameCounters>() + clusters.max(1) * size_of::<ClusterSlot>();
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
-    memory.zeros("the list of visible clusters", bytes as u64, usage)
+    memory.zeros(COUNTERS, counters_bytes(clusters) as u64, usage)
+}
+
+/// Bytes of the counters and a slot per cluster.
+fn counters_bytes(clusters: usize) -> usize {
+    size_of::<FrameCounters>() + clusters.max(1) * size_of::<ClusterSlot>()
 }
 
 fn check_binding(gpu: &Gpu, what: &str, bytes: u64) -> Result<(), RenderError> {

@@ -11,7 +11,7 @@ use super::facts::SceneFacts;
 use super::pack::{Packed, Packing};
 use super::path_strokes::PathStrokes;
 use super::rewrite::SparePatches;
-use super::scene_buffers::{SceneBuffers, all_parts};
+use super::scene_buffers::{SceneBuffers, parts_of};
 use super::shown_gesture::ShownGesture;
 use crate::device::Patcher;
 use crate::tiles::device_context::{DeviceContext, device_error};
@@ -65,7 +65,7 @@ impl UploadedScene {
         self.facts = SceneFacts::of(&self.scene);
         let start = Instant::now();
         let ranks = DrawRanks::of(&self.scene);
-        let parts = all_parts(&self.scene, &ranks);
+        let parts = parts_of(&self.scene, &ranks, self.scene.draw_order());
         let several = parts.iter().filter(|part| !part.is_whole());
         self.multi_stroke_paths = several.map(|part| part.path).collect();
         let packed = Packed::of(&self.scene, parts, packing);

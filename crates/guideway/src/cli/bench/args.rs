@@ -68,6 +68,10 @@ pub(crate) struct Args {
     /// Give the paths of `--motion edit` another color and width, and undo that in the next frame
     #[arg(long, group = "way")]
     pub(super) restyle: bool,
+    /// Give the scene other colors, different for the paths of `--motion edit`, and its own in the
+    /// next frame, as when another column colors it
+    #[arg(long, group = "way")]
+    pub(super) recolor: bool,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::frame_size)]
     pub(super) size: FrameSize,

@@ -46,10 +46,11 @@ impl Args {
                 "Omit --paths, or measure a dataset, such as `guideway bench d1 --paths 100000`",
             ));
         }
-        let has_way = self.apart || self.drop || self.remove || self.restyle;
+        let has_way = self.apart || self.drop || self.remove || self.restyle || self.recolor;
         if self.motion != MotionKind::Edit && (self.moved.is_some() || has_way) {
             return Err(usage_error(
-                "--moved, --drop, --apart, --remove and --restyle apply only with --motion edit",
+                "--moved, --drop, --apart, --remove, --restyle and --recolor apply only with --motion \
+                 edit",
                 "Add it, such as `--motion edit --moved 10`",
             ));
         }
@@ -114,6 +115,7 @@ impl Args {
             (self.apart, Way::Apart),
             (self.remove, Way::Remove),
             (self.restyle, Way::Restyle),
+            (self.recolor, Way::Recolor),
         ];
         let chosen = ways.into_iter().find(|(is_chosen, _)| *is_chosen);
         chosen.map_or(Way::Gesture, |(_, way)| way)

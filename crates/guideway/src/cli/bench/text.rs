@@ -64,6 +64,7 @@ fn heading(comparison: &Comparison) -> String {
                 Some(Way::Gesture) | None => "moved each frame",
                 Some(Way::Remove) => "removed by each frame or restored",
                 Some(Way::Restyle) => "restyled by each frame",
+                Some(Way::Recolor) => "in other colors each frame",
             };
             format!("{} {ways}", text::counted(moved, "path"))
         }

@@ -1,0 +1,169 @@
+//! [`Coloring`]: the color of each path of a layout, and what the colors mean.
+
+use guideway_layout::Layout;
+
+use super::draw_order::{draw_order, states};
+use super::error::SceneError;
+use super::level::visible_level;
+use super::model::{Scene, SceneOptions};
+use super::path_state::PathState;
+use crate::color::Rgba;
+use crate::color_by::{self, Legend};
+
+/// Color of walls and doors: a contrast of 3:1 on white paper, and 5:1 on dark one.
+const STRUCTURE: Rgba = Rgba::opaque(144, 144, 144);
+
+/// The colors of all paths of a layout. A scene has one, and can take another one at any time:
+/// see [`Scene::recolor`].
+#[derive(Clone, Debug)]
+pub struct Coloring {
+    pub(crate) colors: Colors,
+    /// Color of paths without a color of their own.
+    pub(crate) base: Rgba,
+    pub(crate) legend: Option<Legend>,
+    /// True if paths that no vehicle drives are drawn below all others.
+    pub(super) structure_below: bool,
+}
+
+/// One color for all paths, or one for each row.
+#[derive(Clone, Debug)]
+pub(crate) enum Colors {
+    One(Rgba),
+    Each(Vec<Rgba>),
+}
+
+impl Coloring {
+    /// The colors of a scene with these options.
+    ///
+    /// # Errors
+    /// When the options name a level or a column that the layout does not have.
+    pub fn new(layout: &Layout, options: &SceneOptions) -> Result<Self, SceneError> {
+        let level = visible_level(layout, options.level.as_deref())?;
+        Self::of(layout, options, &states(layout, level))
+    }
+
+    /// As [`Self::new`], with the states of the paths; without any, all are shown.
+    pub(super) fn of(
+        layout: &Layout,
+        options: &SceneOptions,
+        states: &[PathState],
+    ) -> Result<Self, SceneError> {
+        let base = options.color.unwrap_or(Rgba::BLACK);
+        let Some(by) = &options.color_by else {
+            let mut colors = own_colors(layout, base);
+            let structure_below = options.has_gray_structure && colors.gray_structure(layout);
+            return Ok(Self {
+                colors,
+                base,
+                legend: None,
+                structure_below,
+            });
+        };
+        let of_colors = match options.has_common_colors {
+            true => &[],
+            false => states,
+        };
+        let rows = draw_order(layout, of_colors, false);
+        let resolved = color_by::resolve(layout, by, &options.numbers, &rows);
+        let (colors, legend) = resolved.map_err(|unknown| SceneError::UnknownColumn {
+            asked: by.column.clone(),
+            known: unknown.known,
+        })?;
+        Ok(Self {
+            colors: Colors::Each(colors),
+            base,
+            legend: Some(legend),
+            structure_below: false,
+        })
+    }
+
+    /// Returns `true` if these may be the colors of a scene: they are as many as its paths.
+    pub fn suits(&self, scene: &Scene) -> bool {
+        match &self.colors {
+            Colors::One(_) => true,
+            Colors::Each(colors) => colors.len() == scene.row_count(),
+        }
+    }
+
+    /// Returns `true` if a scene with these colors draws its paths in another order.
+    pub fn moves_paths(&self, scene: &Scene) -> bool {
+        self.structure_below != scene.coloring.structure_below
+    }
+
+    pub(super) fn color(&self, path: u32) -> Rgba {
+        match &self.colors {
+            Colors::One(color) => *color,
+            Colors::Each(colors) => colors[path as usize],
+        }
+    }
+}
+
+impl Colors {
+    /// Makes paths gray that no vehicle drives. Returns `true` if there are any beside others.
+    fn gray_structure(&mut self, layout: &Layout) -> bool {
+        let is_structure = |row: &usize| !layout.paths.is_driven(*row);
+        let rows: Vec<usize> = match layout.paths.column("element") {
+            Some(_) => (0..layout.paths.len()).filter(is_structure).collect(),
+            None => Vec::new(),
+        };
+        if rows.is_empty() || rows.len() == layout.paths.len() {
+            return false;
+        }
+        let mut each = match std::mem::replace(self, Self::One(STRUCTURE)) {
+            Self::One(color) => vec![color; layout.paths.len()],
+            Self::Each(colors) => colors,
+        };
+        rows.into_iter().for_each(|row| each[row] = STRUCTURE);
+        *self = Self::Each(each);
+        true
+    }
+}
+
+impl Scene {
+    /// Takes other colors, at a cost proportional to the number of paths.
+    ///
+    /// # Panics
+    /// When the colors are fewer or more than the paths: see [`Coloring::suits`].
+    pub fn recolor(&mut self, coloring: &Coloring) {
+        assert!(coloring.suits(self), "colors of another layout");
+        let moves_paths = coloring.moves_paths(self);
+        self.coloring.clone_from(coloring);
+        self.colors_changed(moves_paths);
+    }
+
+    /// The colors of all paths.
+    pub fn coloring(&self) -> &Coloring {
+        &self.coloring
+    }
+
+    /// Color of a path, by row.
+    pub fn color(&self, path: u32) -> Rgba {
+        self.coloring.color(path)
+    }
+
+    /// Meaning of the colors, if a column decides them.
+    pub fn legend(&self) -> Option<&Legend> {
+        self.coloring.legend.as_ref()
+    }
+
+    /// Color of a path when no column decides it.
+    pub(crate) fn own_color(&self, path: u32) -> Rgba {
+        own_color(self.layout(), self.coloring.base, path)
+    }
+}
+
+/// Color of a path when no column decides it.
+pub(crate) fn own_color(layout: &Layout, base: Rgba, path: u32) -> Rgba {
+    let own = layout.paths.own_style(path as usize).color_rgba;
+    own.map_or(base, Rgba::from_u32)
+}
+
+fn own_colors(layout: &Layout, base: Rgba) -> Colors {
+    match layout.paths.color_rgba() {
+        None => Colors::One(base),
+        Some(own) => {
+            let color = |&c: &u32| if c == 0 { base } else { Rgba::from_u32(c) };
+            Colors::Each(own.iter().map(color).collect())
+        }
+    }
+}
