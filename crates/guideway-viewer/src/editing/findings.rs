@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use guideway_document::{Element, Snapshot, located};
-use guideway_layout::{CheckOptions, Code, Diagnostics, Layout, PathRef, Severity};
+use guideway_layout::{CheckOptions, Code, Diagnostic, Diagnostics, Layout, PathRef, Severity};
 use guideway_network::{AnalyzeOptions, analyze};
 use guideway_spline::{Point, uniform};
 
@@ -35,6 +35,8 @@ pub(crate) struct Findings {
     pub(crate) diagnostics: Diagnostics,
     /// The findings that have a place, most severe first.
     pub(crate) marks: Vec<FindingMark>,
+    /// The same by x: the pointer asks at each movement.
+    by_x: Vec<u32>,
     /// The checked state, to compare with [`Document::state`](guideway_document::Document::state).
     pub(crate) state: u64,
     pub(crate) options: CheckOptions,
@@ -45,7 +47,8 @@ pub(crate) struct Findings {
 pub(crate) struct FindingMark {
     pub(crate) severity: Severity,
     pub(crate) at_m: Point<f64>,
-    pub(crate) text: String,
+    /// Its number among the stored findings.
+    number: usize,
 }
 
 impl Findings {
@@ -56,9 +59,15 @@ impl Findings {
         let network = AnalyzeOptions::default();
         diagnostics.append(snapshot.findings_of(|layout| analyze(layout, &network)));
         let marks = marks(snapshot.layout(), &diagnostics);
+        let mut by_x: Vec<u32> = (0..marks.len() as u32).collect();
+        by_x.sort_by(|&a, &b| {
+            let x = |mark: u32| marks[mark as usize].at_m.x;
+            x(a).total_cmp(&x(b))
+        });
         Self {
             diagnostics,
             marks,
+            by_x,
             state: snapshot.state(),
             options: options.clone(),
             elapsed: started.elapsed(),
@@ -71,16 +80,22 @@ impl Findings {
         at_m: Point<f64>,
         reach_m: f64,
         marked: MarkedSeverities,
-    ) -> Option<&FindingMark> {
-        let is_near = |mark: &&FindingMark| mark.at_m.distance(at_m) <= reach_m;
-        let mut shown = self.marks.iter().filter(|mark| marked.has(mark.severity));
-        shown.find(is_near)
+    ) -> Option<&Diagnostic> {
+        let mark = |index: u32| &self.marks[index as usize];
+        let first = self
+            .by_x
+            .partition_point(|&index| mark(index).at_m.x < at_m.x - reach_m);
+        let is_beside = |index: &u32| mark(*index).at_m.x <= at_m.x + reach_m;
+        let beside = self.by_x[first..].iter().copied().take_while(is_beside);
+        let near = beside.filter(|&index| mark(index).at_m.distance(at_m) <= reach_m);
+        let shown = near.filter(|&index| marked.has(mark(index).severity));
+        self.diagnostics.iter().nth(mark(shown.min()?).number)
     }
 }
 
 /// The marks of findings about elements.
 fn marks(layout: &Layout, found: &Diagnostics) -> Vec<FindingMark> {
-    let mark = |finding: &guideway_layout::Diagnostic| {
+    let mark = |(number, finding): (usize, &Diagnostic)| {
         let at_m = match located(&finding.place)? {
             Element::Path(row) => place_on(layout, row, finding.code)?,
             Element::Node(row) => layout.nodes.position_m(row),
@@ -89,10 +104,10 @@ fn marks(layout: &Layout, found: &Diagnostics) -> Vec<FindingMark> {
         Some(FindingMark {
             severity: finding.severity,
             at_m,
-            text: format!("{}: {}", finding.place, finding.message),
+            number,
         })
     };
-    let mut marks: Vec<_> = found.iter().filter_map(mark).collect();
+    let mut marks: Vec<_> = found.iter().enumerate().filter_map(mark).collect();
     marks.sort_by_key(|mark| std::cmp::Reverse(mark.severity));
     marks
 }
@@ -138,7 +153,7 @@ mod tests {
         assert_eq!(count(Code::NotConnected), 1);
         let marked = MarkedSeverities::default();
         let gap = findings.near(Point::new(10.0, 2.0), 0.1, marked).unwrap();
-        assert!(gap.text.contains("lane 1"), "{}", gap.text);
+        assert!(gap.place.element.contains("lane 1"), "{}", gap.place);
         assert!(findings.near(Point::new(5.0, 9.0), 1.0, marked).is_none());
         let severities = findings.marks.iter().map(|mark| mark.severity);
         assert!(severities.is_sorted_by(|a, b| a >= b));

@@ -1,11 +1,12 @@
 //! The language of the window: every text stands in the code in English, and in `german.tsv` beside
-//! its German form.
+//! its German form; [`messages`] has the texts of other crates.
 //!
 //! A line of the table has an English text and the German one; for a thing that is counted, its
 //! English singular, and singular and plural in German. A thread has the language of the thread
 //! that started it.
 
 mod keys;
+mod messages;
 
 use std::cell::Cell;
 use std::collections::HashMap;
@@ -20,6 +21,7 @@ use guideway_layout::Direction;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use keys::shortcut_text;
+pub(crate) use messages::translated;
 
 /// A language of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

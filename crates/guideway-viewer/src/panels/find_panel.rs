@@ -5,7 +5,7 @@ use guideway_document::SelectMode;
 
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
-use crate::language::t;
+use crate::language::{t, translated};
 use crate::selection::Find;
 
 /// Shows the section.
@@ -59,6 +59,6 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
         }
     });
     if let Some(error) = &find.query_error {
-        ui.colored_label(ui.visuals().error_fg_color, error);
+        ui.colored_label(ui.visuals().error_fg_color, translated(error));
     }
 }

@@ -11,7 +11,7 @@ use crate::action::Action;
 use crate::canvas::severity_color;
 use crate::editing::{EditTask, MarkedSeverities, SEVERITIES};
 use crate::files::{Layer, OpenFiles};
-use crate::language::{counted, grouped, say, t};
+use crate::language::{counted, grouped, say, t, translated};
 
 /// Longest list of findings of one kind.
 const MAX_LISTED: usize = 200;
@@ -156,14 +156,14 @@ impl KindList<'_> {
     }
 
     fn show_finding(&self, ui: &mut Ui, finding: &Diagnostic, actions: &mut Vec<Action>) {
-        let text = format!("{}: {}", finding.place, finding.message);
-        let link = ui.link(text).on_hover_text(&finding.remedy);
+        let link = ui.link(finding_text(finding));
+        let link = link.on_hover_text(translated(&finding.remedy));
         if let (true, Some(document)) = (link.clicked(), self.document) {
             actions.push(match locate(document.layout(), &finding.place) {
                 Some(element) => Action::ZoomTo(element),
                 None => Action::Notify(say!(
                     "{place} has no position in the plane",
-                    place = finding.place
+                    place = translated(&finding.place.to_string())
                 )),
             });
         }
@@ -193,13 +193,19 @@ impl KindList<'_> {
 
 /// Offers a fix. Returns `true` if it is clicked.
 fn offer(ui: &mut Ui, proposed: &ProposedFix, actions: &mut Vec<Action>) -> bool {
-    let is_clicked = ui.button(t(&proposed.label)).clicked();
+    let is_clicked = ui.button(translated(&proposed.label)).clicked();
     if is_clicked {
         let fix = proposed.fix.clone();
         let edit = move |document: &mut Document| document.fix(&fix);
         actions.push(Action::Edit(EditTask::edit(edit)));
     }
     is_clicked
+}
+
+/// Place and message of a finding in the language of the window.
+pub(super) fn finding_text(finding: &Diagnostic) -> String {
+    let place = finding.place.to_string();
+    format!("{}: {}", translated(&place), translated(&finding.message))
 }
 
 /// The name of a code in words: `Reverse pair`.

@@ -8,7 +8,7 @@ use super::new_edges::speed_field;
 use crate::action::Action;
 use crate::canvas::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 use crate::files::OpenFiles;
-use crate::language::{grouped, say, t};
+use crate::language::{grouped, say, t, translated};
 use crate::network_draft::{NetworkDraft, toggle_source};
 
 const LENGTHS_M: std::ops::RangeInclusive<f64> = 0.0..=100.0;
@@ -167,15 +167,16 @@ fn show_result(ui: &mut Ui, files: &OpenFiles, draft: &NetworkDraft, actions: &m
         Some(Ok(drafted)) => {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 for (number, line) in drafted.lines.iter().enumerate() {
-                    let line = RichText::new(line);
+                    let line = RichText::new(translated(line));
                     let line = if number == 0 { line.strong() } else { line };
                     ui.add(Label::new(line).wrap());
                 }
             });
         }
         Some(Err(error)) => {
-            ui.colored_label(ui.visuals().error_fg_color, &error.message);
-            ui.add(Label::new(&error.remedy).wrap());
+            let color = ui.visuals().error_fg_color;
+            ui.colored_label(color, translated(&error.message));
+            ui.add(Label::new(translated(&error.remedy)).wrap());
         }
         None => {}
     }

@@ -5,7 +5,7 @@ use guideway_document::{Element, text_format};
 
 use crate::action::Action;
 use crate::files::OpenFiles;
-use crate::language::{counted, say, t};
+use crate::language::{counted, say, t, translated};
 use crate::route::{FoundRoute, RouteSearch, Slot};
 use crate::units::units;
 
@@ -44,7 +44,7 @@ pub(super) fn show(
             ui.label(hint);
         }
         Some(Err(why)) => {
-            ui.add(Label::new(why).wrap());
+            ui.add(Label::new(translated(why)).wrap());
         }
         Some(Ok(route)) => {
             let (sums, length_m) = (sums(route), route.track.length_m());

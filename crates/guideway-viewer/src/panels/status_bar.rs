@@ -4,7 +4,8 @@
 use eframe::egui::{Label, Ui};
 use guideway_document::{Document, Hit, text_format};
 
-use super::digits::digits;
+use super::digits::Digits;
+use super::findings_panel::finding_text;
 use super::selection_panel::summary;
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
@@ -64,14 +65,14 @@ impl StatusBar<'_> {
     }
 
     /// The finding under the pointer.
-    fn finding(&self) -> Option<&str> {
+    fn finding(&self) -> Option<String> {
         let (view, at_px) = (self.canvas.camera.view()?, self.canvas.pointer_px()?);
         let layer = self.files.active()?;
         let reach_m = HIT_RADIUS_PX * self.canvas.px_per_point() / view.px_per_m();
         let findings = layer.tasks.findings()?;
         let at_m = view.world_from_pixel(at_px);
         let finding = findings.near(at_m, reach_m, self.marked_findings)?;
-        Some(&finding.text)
+        Some(finding_text(finding))
     }
 
     /// The path under the pointer in another file.
@@ -96,10 +97,13 @@ impl StatusBar<'_> {
             || "x           y          ".to_owned(),
             |at_m| format!("x {:>9.3} y {:>9.3} m", at_m.x, at_m.y),
         );
-        digits(ui, &position).on_hover_text(t("Position of the pointer"));
+        let digits = Digits::new(ui);
+        let position = digits.show(ui, &position);
+        position.on_hover_text(t("Position of the pointer"));
         ui.separator();
         let scale = scale_text(view.px_per_m() / self.canvas.px_per_point());
-        digits(ui, &scale).on_hover_text(t("Scale on a screen of 96 points per inch"));
+        let scale = digits.show(ui, &scale);
+        scale.on_hover_text(t("Scale on a screen of 96 points per inch"));
         ui.separator();
     }
 }

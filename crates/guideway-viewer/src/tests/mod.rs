@@ -13,6 +13,7 @@ mod first_layout;
 mod floor_plans;
 #[cfg(target_os = "linux")]
 mod full_disk;
+mod german;
 mod groups;
 mod lane_network;
 mod layers;

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use crate::language::t;
+use crate::language::{t, translated};
 use eframe::egui::{Align2, Area, Button, Context, Frame, Id, Order, Rect, Sense, Vec2};
 
 /// Longest list of notices; older ones are dropped.
@@ -38,7 +38,8 @@ enum Leaves {
 impl Notices {
     /// Adds a problem, unless it repeats the last notice. It stays until it is dismissed.
     pub(crate) fn add(&mut self, text: impl Into<String>) {
-        self.push(text.into(), Leaves::Dismissed);
+        let text = text.into();
+        self.push(translated(&text).into_owned(), Leaves::Dismissed);
     }
 
     /// Adds news, which leaves by itself.

@@ -26,7 +26,7 @@ use self::shown::Shown;
 use crate::action::Action;
 use crate::editing::EditTask;
 use crate::files::{Layer, OpenFiles};
-use crate::language::{say, t};
+use crate::language::{say, t, translated};
 use crate::units::{Units, shown_unit, units};
 
 /// Least width of the names beside the fields, in points.
@@ -225,8 +225,12 @@ impl PropertiesPanel {
             None => field.name.clone(),
         };
         let label = ui.add(Label::new(&name).truncate());
-        let meaning = Property::named(&field.name).map_or(&*name, |property| property.meaning);
-        label.on_hover_text(meaning);
+        if label.contains_pointer() {
+            let known = Property::named(&field.name);
+            label.on_hover_text(translated(
+                known.map_or(&*name, |property| property.meaning),
+            ));
+        }
         ui.horizontal(|ui| {
             self.value_field(ui, shown, field, None, actions);
             self.add_type(ui, shown, field);
@@ -318,7 +322,7 @@ impl PropertiesPanel {
                 let is_shown = shown.fields.iter().any(|field| field.name == property.name);
                 let button = Button::new(property.name);
                 let button = ui.add_enabled(!is_shown, button);
-                if button.on_hover_text(property.meaning).clicked() {
+                if button.on_hover_text(translated(property.meaning)).clicked() {
                     self.added.push((shown.of, property));
                     ui.close();
                 }

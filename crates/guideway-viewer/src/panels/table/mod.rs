@@ -24,7 +24,7 @@ use crate::action::Action;
 use crate::background::RepaintHandle;
 use crate::editing::EditTask;
 use crate::files::OpenFiles;
-use crate::language::{counted, t};
+use crate::language::{counted, t, translated};
 
 /// The table view.
 pub(crate) struct TablePanel {
@@ -138,7 +138,7 @@ impl TablePanel {
             }
             match (self.rows.error(), count) {
                 (Some(error), _) => {
-                    ui.colored_label(ui.visuals().error_fg_color, error);
+                    ui.colored_label(ui.visuals().error_fg_color, translated(error));
                 }
                 (None, Some(count)) => {
                     ui.weak(counted(count as u64, "row"));

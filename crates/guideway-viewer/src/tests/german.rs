@@ -1,0 +1,129 @@
+//! The window in German: no English is left in menus, panels, findings, reports and errors.
+
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+use guideway_document::SelectMode;
+use guideway_layout::Layout;
+use guideway_spline::Point;
+
+use super::lane_network::network;
+use super::services::{TestServices, lanes};
+use super::test_window::{TestWindow, has_notice};
+use crate::command::Command;
+use crate::language::Language;
+use crate::panels::SideTab;
+
+/// Words that no German text of the window has.
+const ENGLISH: &[&str] = &[
+    "a", "and", "are", "at", "begins", "by", "ends", "for", "from", "has", "have", "is", "lead",
+    "leads", "leave", "left", "neither", "no", "node", "nodes", "not", "of", "or", "path", "paths",
+    "reach", "the", "they", "this", "to", "vehicles", "with", "without",
+];
+
+/// The texts of the window that have an English word.
+fn english(window: &TestWindow) -> Vec<String> {
+    let nodes = window.harness.root().children_recursive();
+    let texts = nodes.flat_map(|node| {
+        let node = node.accesskit_node();
+        [node.label(), node.value(), node.description()]
+    });
+    let is_english = |text: &String| {
+        // Names from files are in quotes.
+        let own = text.split(['\u{201e}', '\u{201c}', '"']).step_by(2);
+        own.flat_map(|part| part.split(|c: char| !c.is_alphabetic()))
+            .any(|word| ENGLISH.contains(&word))
+    };
+    let mut found: Vec<String> = texts.flatten().filter(is_english).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+fn german(layout: Layout) -> TestWindow {
+    let disk = TestServices::with([("halle.arrow", layout)]);
+    let mut window = TestWindow::open(&disk, &["halle.arrow"], Some("cpu"));
+    window.app().settings.language = Some(Language::German);
+    window.wait(|app| app.document().is_some());
+    window.wait(|app| app.files.layers()[0].tasks.findings().is_some());
+    window.harness.run_steps(3);
+    window
+}
+
+/// Faults of paths and of the network.
+fn faulty() -> Layout {
+    let mut layout = network(9);
+    layout.nodes.set_position_m(3, Point::new(10.5, 2.0));
+    layout
+        .paths
+        .attributes
+        .set_quantity(2, "maxSpeed", 400.0, guideway_layout::Quantity::Speed);
+    layout.nodes.push("abseits", Point::new(50.0, 50.0), None);
+    layout.stations.push("ohne", None, Vec::new(), None);
+    layout
+}
+
+#[test]
+fn english_is_recognized() {
+    let window = TestWindow::showing(lanes(2));
+    assert!(!english(&window).is_empty());
+}
+
+#[test]
+fn findings_and_their_fixes_are_german() {
+    let mut window = german(faulty());
+    window.app().side.open(SideTab::Findings);
+    window.harness.run_steps(3);
+    let findings = window.app().files.layers()[0].tasks.findings().unwrap();
+    assert!(findings.diagnostics.counts().count() > 4);
+    // The headers of the lists, from below: an open one moves those that follow.
+    let headers: Vec<_> = window.harness.query_all_by_label_contains(" (").collect();
+    for header in headers.iter().rev() {
+        header.click();
+    }
+    drop(headers);
+    window.harness.run_steps(12);
+    let is_shown = |window: &TestWindow, text: &str| {
+        window.harness.query_all_by_label_contains(text).count() > 0
+    };
+    assert!(is_shown(&window, "Weg \u{201e}lane 1\u{201c}: endet bei"));
+    assert_eq!(english(&window), [""; 0]);
+    let fixes: Vec<_> = window.harness.query_all_by_label("Beheben").collect();
+    assert!(!fixes.is_empty());
+    fixes[0].click();
+    drop(fixes);
+    window.harness.run_steps(3);
+    assert_eq!(english(&window), [""; 0]);
+}
+
+#[test]
+fn report_of_a_network_is_german() {
+    let mut layout = lanes(4);
+    let dot = layout.paths.len();
+    layout.paths.push(&guideway_layout::NewPath::default());
+    assert_eq!(layout.paths.len(), dot + 1);
+    let mut window = german(layout);
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(Command::Network, &ctx);
+    window.wait(|app| app.bottom.network.is_ready(&app.files));
+    window.harness.run_steps(3);
+    let line = window
+        .harness
+        .query_all_by_label_contains("beide Richtungen");
+    let one_way = window
+        .harness
+        .query_all_by_label_contains("Einbahn: Fahrzeuge");
+    assert!(line.count() + one_way.count() > 0);
+    assert_eq!(english(&window), [""; 0]);
+}
+
+#[test]
+fn refused_edits_are_told_in_german() {
+    let mut window = german(lanes(3));
+    window.change(|document| document.select([0, 1].into_iter().collect(), SelectMode::Replace));
+    window.harness.run_steps(2);
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(Command::SplitCrossings, &ctx);
+    window.wait(|app| has_notice(app, "die Wege kreuzen sich nicht"));
+    window.key(Modifiers::NONE, Key::Escape);
+    assert_eq!(english(&window), [""; 0]);
+}
