@@ -3,6 +3,7 @@
 mod arranging;
 mod background;
 mod chrome;
+mod complete_edits;
 mod content;
 mod drag;
 mod drawing;

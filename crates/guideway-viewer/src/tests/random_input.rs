@@ -6,6 +6,7 @@ use egui_kittest::kittest::Queryable;
 use guideway_layout::Layout;
 use guideway_spline::Point;
 
+use super::complete_edits::complete;
 use super::test_window::TestWindow;
 use crate::command::{Command, MENUS, SHORTCUTS, shortcuts_of};
 use crate::panels::SideTab;
@@ -33,7 +34,7 @@ impl RandomSource {
 }
 
 /// Control points beyond which paths are no longer duplicated or refined.
-const MAX_POINTS: usize = 20_000;
+pub(super) const MAX_POINTS: usize = 20_000;
 
 /// Texts for fields, dialogs and the strip of typed points: sound ones and garbage.
 const TEXTS: [&str; 18] = [
@@ -60,7 +61,7 @@ const TEXTS: [&str; 18] = [
 /// Sends one random input. Returns its kind.
 pub(super) fn act(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
     let at = random.place();
-    let what = match random.below(19) {
+    let what = match random.below(21) {
         0 | 1 => {
             window.click(at);
             "click"
@@ -104,6 +105,7 @@ pub(super) fn act(window: &mut TestWindow, random: &mut RandomSource) -> &'stati
             show_floor_plan(window, random);
             "floor plan"
         }
+        15 | 16 => complete(window, random),
         _ => press(window, random),
     };
     window.harness.step();

@@ -1,0 +1,181 @@
+//! Edits that random input alone seldom completes: each selects what it needs, and types and
+//! confirms what the window asks for.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, Vec2};
+use egui_kittest::kittest::{By, Queryable};
+use guideway_document::{Element, Elements, SelectMode};
+use guideway_scene::Table;
+use guideway_spline::Point;
+
+use super::random_input::{MAX_POINTS, RandomSource, close_dialogs};
+use super::test_window::TestWindow;
+use crate::command::Command;
+use crate::panels::SideTab;
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+
+/// Completes a random one of the edits. Returns its name.
+pub(super) fn complete(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
+    close_dialogs(window);
+    for key in [Key::V, Key::U, Key::F] {
+        window.key(NONE, key);
+    }
+    let complete: (&str, fn(&mut TestWindow, &mut RandomSource) -> Option<()>) =
+        match random.below(6) {
+            0 => ("complete join", join),
+            1 => ("complete weld", weld),
+            2 => ("complete property", set_property),
+            3 => ("complete node move", move_node),
+            4 => ("complete rename", rename),
+            _ => ("complete fillet", fillet),
+        };
+    // The layout may lack what the edit needs.
+    let _ = complete.1(window, random);
+    complete.0
+}
+
+/// A random element of a table.
+fn element(window: &mut TestWindow, random: &mut RandomSource, of: Table) -> Option<Element> {
+    let document = window.document();
+    let rows: Vec<u32> = document.existing(of).collect();
+    let row = *rows.get(random.below(rows.len().max(1)))?;
+    Some(match of {
+        Table::Paths => Element::Path(row),
+        Table::Nodes => Element::Node(row),
+        Table::Stations => Element::Station(row),
+    })
+}
+
+fn select(window: &mut TestWindow, element: Element) {
+    window.change(move |document| {
+        document.select_elements(&Elements::of(element), SelectMode::Replace);
+    });
+    window.harness.run_steps(2);
+}
+
+fn select_path(window: &mut TestWindow, random: &mut RandomSource) -> Option<u32> {
+    let path = element(window, random, Table::Paths)?;
+    select(window, path);
+    Some(path.table_row().1)
+}
+
+/// Splits a path, and joins its pieces.
+fn join(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    select_path(window, random)?;
+    window.key(NONE, Key::K);
+    window.key(NONE, Key::J);
+    Some(())
+}
+
+/// Drags a path off its nodes, and welds the gaps.
+fn weld(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    let path = select_path(window, random)?;
+    let (start, end) = window.document().layout().paths.get(path as usize).ends()?;
+    let middle = (start + end) * 0.5;
+    let at = window.at(middle.x, middle.y);
+    let by = Vec2::new(random.below(9) as f32 - 4.0, 6.0);
+    window.press(at, NONE);
+    window.harness.event(Event::PointerMoved(at + by));
+    window.harness.step();
+    window.release(at + by, CTRL);
+    window.key(CTRL, Key::A);
+    perform(window, Command::Weld);
+    window.answer("1.5");
+    Some(())
+}
+
+/// Types a number into a field of the properties of a path.
+fn set_property(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    select_path(window, random)?;
+    window.app().bottom.view = None;
+    window.app().side.open(SideTab::Properties);
+    window.harness.run_steps(3);
+    let field = By::new().role(Role::TextInput);
+    let fields: Vec<_> = window.harness.query_all(field).collect();
+    fields.get(random.below(fields.len().max(1)))?.focus();
+    drop(fields);
+    window.harness.run_steps(2);
+    window.key(CTRL, Key::A);
+    let text = format!("{}.{:02}", random.below(90), random.below(100));
+    window.harness.event(Event::Text(text));
+    window.harness.run_steps(2);
+    window.key(NONE, Key::Enter);
+    Some(())
+}
+
+/// Drags a node by the Points tool.
+fn move_node(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    let node = element(window, random, Table::Nodes)?;
+    select(window, node);
+    let place = window.document().node_position_m(node.table_row().1);
+    window.key(NONE, Key::P);
+    let at = window.at(place.x, place.y);
+    let mut step = || random.below(41) as f32 - 20.0;
+    window.drag(at, at + Vec2::new(step(), step()));
+    window.key(NONE, Key::V);
+    Some(())
+}
+
+/// Gives a name that no element has.
+fn rename(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    let tables = [Table::Paths, Table::Nodes, Table::Stations];
+    let of = tables[random.below(3)];
+    let element = element(window, random, of)?;
+    select(window, element);
+    window.key(NONE, Key::F2);
+    window.answer(&format!("e{}", random.below(1 << 40)));
+    Some(())
+}
+
+/// Draws a corner of two paths, and rounds it.
+fn fillet(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    if window.document().layout().paths.geometry().point_count() > MAX_POINTS {
+        return None;
+    }
+    let mut place = || random.below(2000) as f64 / 100.0 - 30.0;
+    let (x, y) = (place(), place());
+    window.key(NONE, Key::D);
+    for (x, y) in [(x, y), (x + 4.0, y), (x + 4.0, y + 4.0)] {
+        window.type_line(&format!("{x},{y}"));
+    }
+    window.key(NONE, Key::Enter);
+    window.key(NONE, Key::V);
+    let corner = window.document().node_near(Point::new(x + 4.0, y), 1e-3)?;
+    select(window, Element::Node(corner));
+    window.key(NONE, Key::Q);
+    window.answer(["0.05", "0.2", "0.5"][random.below(3)]);
+    Some(())
+}
+
+fn perform(window: &mut TestWindow, command: Command) {
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(command, &ctx);
+    window.harness.run_steps(2);
+}
+
+#[test]
+fn each_edit_is_completed() {
+    let edits: [(fn(&mut TestWindow, &mut RandomSource) -> Option<()>, &str); 6] = [
+        (join, "join"),
+        (weld, "weld"),
+        (set_property, "set property"),
+        (move_node, "move node"),
+        (rename, "rename"),
+        (fillet, "fillet"),
+    ];
+    let mut window = TestWindow::showing(super::lane_network::network(6));
+    let mut random = RandomSource(5);
+    for (edit, name) in edits {
+        let completed = (0..8).filter(|_| {
+            close_dialogs(&mut window);
+            window.key(NONE, Key::F);
+            let before = window.document().state();
+            edit(&mut window, &mut random);
+            let document = window.document();
+            document.state() != before && document.undo_redo_names().0 == Some(name)
+        });
+        assert!(completed.count() > 3, "{name}");
+    }
+}
