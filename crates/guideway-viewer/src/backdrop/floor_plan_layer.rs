@@ -13,6 +13,10 @@ use crate::background::{BackgroundTask, RepaintHandle};
 use crate::render_queue::BackgroundPicture;
 use crate::services::AppServices;
 
+/// Part of its opacity that an image has on a dark background: the white of paper would outshine
+/// names and lines.
+const DARK_IMAGE_OPACITY: f32 = 0.35;
+
 /// A floor plan that stays prepared, to be rendered at every change of the view.
 struct ReadyPlan {
     plan: FloorPlan,
@@ -142,6 +146,15 @@ impl FloorPlanLayer {
         self.ready.as_ref().filter(|_| self.is_visible)
     }
 
+    /// The opacity with which the plan is drawn, from 0 to 1.
+    pub(crate) fn drawn_opacity(&self, is_dark: bool) -> f32 {
+        let opacity = self.opacity.clamp(0.0, 1.0);
+        match self.visible() {
+            Some(FloorPlan::Image(_)) if is_dark => DARK_IMAGE_OPACITY * opacity,
+            _ => opacity,
+        }
+    }
+
     /// The last picture and its view.
     pub(crate) fn shown(&self) -> Option<(&TextureHandle, &View)> {
         self.picture.shown()
@@ -187,6 +200,9 @@ mod tests {
     use std::thread;
     use std::time::Duration;
 
+    use guideway_compose::{Image, ImagePlacement};
+    use guideway_formats::raster::Raster;
+
     use super::*;
     use crate::tests::services::TestServices;
 
@@ -212,6 +228,35 @@ mod tests {
         assert!(bounds.is_some() && layer.visible().is_some());
         layer.is_visible = false;
         assert!(layer.visible().is_none() && layer.error().is_none());
+    }
+
+    #[test]
+    fn image_is_dimmed_on_a_dark_background_and_a_drawing_is_not() {
+        let (mut layer, _) = read("hall.png@px-per-m=20");
+        layer.opacity = 0.5;
+        let opacities =
+            |layer: &FloorPlanLayer| [false, true].map(|dark| layer.drawn_opacity(dark));
+        assert_eq!(
+            opacities(&layer),
+            [0.5, 0.5],
+            "the plan of the tests is a drawing"
+        );
+        let white = Raster {
+            width: 1,
+            height: 1,
+            pixels: vec![[255; 4]],
+            has_alpha: false,
+            png: None,
+        };
+        let placement = ImagePlacement {
+            px_per_m: 1.0,
+            rotate_deg: 0.0,
+            offset_m: Point::default(),
+        };
+        let image = FloorPlan::from_image(Image::new(white, &placement));
+        layer.ready = Some(Arc::new(ReadyPlan::new(image).unwrap()));
+        let [light, dark] = opacities(&layer);
+        assert!(light == 0.5 && dark < 0.25, "{dark}");
     }
 
     #[test]

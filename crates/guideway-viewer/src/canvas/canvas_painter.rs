@@ -134,7 +134,8 @@ impl CanvasPainter<'_> {
         let by = Vec2::new((by.x * scale) as f32, (-by.y * scale) as f32);
         let rect = self.screen.picture_rect(of, &self.view).translate(by);
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        let opacity = (self.floor_plan.opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let opacity = self.floor_plan.drawn_opacity(self.settings.is_dark);
+        let opacity = (opacity * 255.0).round() as u8;
         painter.image(
             texture.id(),
             rect,
@@ -178,7 +179,11 @@ impl CanvasPainter<'_> {
         for layer in others {
             if let Some(overlay) = layer.slot.overlay().last() {
                 let place = |pixel| self.placed(&overlay.view, pixel);
-                let marks = overlay.marks.draw(style, place);
+                let mut marks = overlay.marks.draw(style, place);
+                if self.changes.is_some() {
+                    // A compared file has the names of the active one at the same places.
+                    marks.texts.clear();
+                }
                 paint_draw_list(painter, self.screen, &marks);
             }
         }
