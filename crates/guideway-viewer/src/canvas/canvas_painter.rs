@@ -20,6 +20,7 @@ use super::paint_gesture::{
     HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_glowing, paint_handles,
     paint_outline, paint_rings,
 };
+use super::paint_moving::paint_moving;
 use super::paint_network::paint_network;
 use super::paint_snap::paint_snap;
 use super::paint_tools::ToolPainter;
@@ -224,12 +225,14 @@ impl CanvasPainter<'_> {
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
         paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
         if let Gesture::Move { by_m, .. } = self.tools.gesture() {
-            // A moving selection stands out by itself, and a glow takes as long as both lines.
-            paint_outline(painter, &overlay.selection, selected, to_screen);
+            // A moving selection stands out by itself, without a glow.
             let by = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
-            paint_outline(painter, &overlay.selection, hovered, |pixel| {
-                to_screen(pixel) + by
-            });
+            let outline = &overlay.selection;
+            let strokes = [selected, hovered];
+            if overlay.view != *view || !paint_moving(painter, screen, overlay, strokes, by) {
+                paint_outline(painter, outline, selected, to_screen);
+                paint_outline(painter, outline, hovered, |pixel| to_screen(pixel) + by);
+            }
         } else {
             paint_glowing(painter, &overlay.selection, selected, to_screen);
         }

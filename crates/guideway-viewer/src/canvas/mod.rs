@@ -16,6 +16,7 @@ mod draft;
 mod paint_draw_list;
 mod paint_findings;
 mod paint_gesture;
+mod paint_moving;
 mod paint_network;
 mod paint_snap;
 mod paint_tools;

@@ -27,13 +27,23 @@ pub(super) fn paint_outline(
     stroke: Stroke,
     to_screen: impl Fn(Point<f64>) -> Pos2,
 ) {
+    painter.extend(outline_shapes(outline, stroke, to_screen));
+}
+
+/// The shapes of the outline of paths.
+pub(super) fn outline_shapes(
+    outline: &Outline,
+    stroke: Stroke,
+    to_screen: impl Fn(Point<f64>) -> Pos2,
+) -> Vec<Shape> {
     match outline {
         Outline::Lines(lines) => {
-            let shape = |line: &Vec<Point<f64>>| {
-                let points: Vec<Pos2> = line.iter().map(|&p| to_screen(p)).collect();
-                Shape::line(points, stroke)
+            let shape = |line: &Vec<Point<f64>>| match line[..] {
+                // Most lines of a whole site are this short, and need no list of points.
+                [start, end] => Shape::line_segment([to_screen(start), to_screen(end)], stroke),
+                _ => Shape::line(line.iter().map(|&p| to_screen(p)).collect(), stroke),
             };
-            painter.extend(lines.iter().map(shape));
+            lines.iter().map(shape).collect()
         }
         Outline::Cells(cells, side) => {
             let mut mesh = Mesh::default();
@@ -44,7 +54,7 @@ pub(super) fn paint_outline(
                 let rect = Rect::from_two_pos(to_screen(cell), to_screen(cell + far));
                 mesh.add_colored_rect(rect, stroke.color.gamma_multiply(0.5));
             }
-            painter.add(mesh);
+            vec![mesh.into()]
         }
     }
 }

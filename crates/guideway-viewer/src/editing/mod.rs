@@ -28,4 +28,5 @@ pub(crate) use journal::Journal;
 #[cfg(test)]
 pub(crate) use journal_file::entries_on_disk;
 pub(crate) use journal_file::{BaseCopy, JournalFile};
+pub(crate) use overlay::{MovingOutline, OverlayContent};
 pub(crate) use unsaved_work::UnsavedWork;

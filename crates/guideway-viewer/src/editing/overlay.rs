@@ -1,10 +1,11 @@
 //! Marks and outlines of one view, computed by a background task.
 
-use std::sync::Arc;
 #[cfg(test)]
 use std::sync::mpsc::Receiver;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
+use eframe::egui::{Mesh, Pos2};
 use guideway_document::Document;
 use guideway_document::decorations::{MAX_MARKED, MarkOptions, Marks, Outline, marks, outline};
 use guideway_scene::View;
@@ -29,11 +30,22 @@ struct OverlayInput {
     revision: u64,
 }
 
+/// Triangles of the outline of a selection that is being moved.
+pub(crate) struct MovingOutline {
+    /// Corner of the canvas that they are made for.
+    pub(crate) corner: Pos2,
+    pub(crate) selected: Arc<Mesh>,
+    /// The same in the color of the new place, to be moved there.
+    pub(crate) moved: Mesh,
+}
+
 /// Marks and outlines of a view.
 pub(crate) struct OverlayContent {
     pub(crate) view: View,
     pub(crate) marks: Marks,
     pub(crate) selection: Outline,
+    /// The triangles of that outline, once it is being moved.
+    pub(crate) moving: OnceLock<MovingOutline>,
     /// Places of selected nodes and stations, in pixels.
     pub(crate) symbols: Vec<Point<f64>>,
     elapsed: Duration,
@@ -128,6 +140,7 @@ impl OverlayContent {
             view: input.view,
             marks: marks(document, &input.view, &input.options),
             selection: outline(document, document.selection(), &input.view),
+            moving: OnceLock::new(),
             symbols: selected_symbols(document, &input.view),
             elapsed: started.elapsed(),
         }
