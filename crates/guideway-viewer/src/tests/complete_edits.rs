@@ -16,24 +16,25 @@ use crate::panels::SideTab;
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 
+/// One of the edits; `None` if the layout lacks what it needs.
+type Edit = fn(&mut TestWindow, &mut RandomSource) -> Option<()>;
+
 /// Completes a random one of the edits. Returns its name.
 pub(super) fn complete(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
     close_dialogs(window);
     for key in [Key::V, Key::U, Key::F] {
         window.key(NONE, key);
     }
-    let complete: (&str, fn(&mut TestWindow, &mut RandomSource) -> Option<()>) =
-        match random.below(6) {
-            0 => ("complete join", join),
-            1 => ("complete weld", weld),
-            2 => ("complete property", set_property),
-            3 => ("complete node move", move_node),
-            4 => ("complete rename", rename),
-            _ => ("complete fillet", fillet),
-        };
-    // The layout may lack what the edit needs.
-    let _ = complete.1(window, random);
-    complete.0
+    let (name, edit): (&str, Edit) = match random.below(6) {
+        0 => ("complete join", join),
+        1 => ("complete weld", weld),
+        2 => ("complete property", set_property),
+        3 => ("complete node move", move_node),
+        4 => ("complete rename", rename),
+        _ => ("complete fillet", fillet),
+    };
+    let _ = edit(window, random);
+    name
 }
 
 /// A random element of a table.
@@ -157,7 +158,7 @@ fn perform(window: &mut TestWindow, command: Command) {
 
 #[test]
 fn each_edit_is_completed() {
-    let edits: [(fn(&mut TestWindow, &mut RandomSource) -> Option<()>, &str); 6] = [
+    let edits: [(Edit, &str); 6] = [
         (join, "join"),
         (weld, "weld"),
         (set_property, "set property"),

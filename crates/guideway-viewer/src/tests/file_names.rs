@@ -106,6 +106,7 @@ fn losses_are_told_before_the_file_is_written() {
     let writes = |window: &TestWindow| window.disk.writes.lock().unwrap().len();
     window.key(CTRL, Key::A);
     window.key(NONE, Key::Delete);
+    window.wait(|app| app.document().is_some());
     window.key(CTRL, Key::S);
     window.wait(|app| app.dialogs.losses.is_open());
     let line = "• values of paths: vmax (75), lane (9)";
