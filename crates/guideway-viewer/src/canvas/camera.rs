@@ -58,9 +58,13 @@ impl Camera {
         View::new(self.size?, self.position.center_m, self.position.px_per_m).ok()
     }
 
-    /// Sets the size of the canvas; the center stays.
+    /// Sets the size of the canvas. The center stays, but the view of all files follows the size of
+    /// the window until the user moves it.
     pub(crate) fn resize(&mut self, width: u32, height: u32) {
-        self.size = FrameSize::new(width, height).ok();
+        let before = std::mem::replace(&mut self.size, FrameSize::new(width, height).ok());
+        if let (Some(before), Some(size)) = (before, self.size) {
+            self.follow_window(before, size);
+        }
         if self.size.is_some()
             && let Some(bounds) = self.pending_fit.take()
         {
@@ -68,6 +72,25 @@ impl Camera {
             if let Some(files) = &mut self.files {
                 files.position = self.position;
             }
+        }
+    }
+
+    /// Fits the files into another size, if the view was made for them. A panel that opens changes
+    /// one side only, and leaves the view as it is.
+    fn follow_window(&mut self, before: FrameSize, size: FrameSize) {
+        let is_panel = before.width() == size.width() || before.height() == size.height();
+        let Some(files) = self.files.as_mut().filter(|_| !is_panel) else {
+            return;
+        };
+        if files.is_shown
+            && files.position == self.position
+            && let Ok(view) = View::fit(size, Some(files.bounds))
+        {
+            self.position = Position {
+                center_m: view.center_m(),
+                px_per_m: view.px_per_m(),
+            };
+            files.position = self.position;
         }
     }
 
@@ -189,6 +212,23 @@ mod tests {
         let mut camera = Camera::new();
         camera.resize(800, 600);
         camera
+    }
+
+    #[test]
+    fn view_of_all_files_follows_the_window_until_it_is_moved() {
+        let mut camera = camera();
+        let [min, max] = [Point::new(0.0, 0.0), Point::new(80.0, 20.0)];
+        camera.fit_file(Bounds { min, max }, true);
+        let scale = |camera: &Camera| camera.view().unwrap().px_per_m();
+        let whole = scale(&camera);
+        camera.resize(400, 300);
+        assert!((scale(&camera) / whole - 0.5).abs() < 0.05);
+        let half = scale(&camera);
+        camera.resize(400, 200);
+        assert_eq!(scale(&camera), half, "a panel opened");
+        camera.zoom_center(2.0);
+        camera.resize(800, 600);
+        assert_eq!(scale(&camera), 2.0 * half, "the user moved it");
     }
 
     #[test]
