@@ -40,7 +40,12 @@ fn test() -> Result<()> {
         }
     }
     cargo(&["build", "--quiet", "--workspace", "--bin", "guideway"]).run()?;
-    for test in ["browser", "element", "widget", "firefox"] {
+    // The files of `shaders`.
+    let write = ["--", "--quiet", "--ignored", "write_every_shader"];
+    cargo(&["test", "--quiet", "--workspace", "--lib"])
+        .args(write)
+        .run()?;
+    for test in ["browser", "element", "widget", "firefox", "shaders"] {
         step::command("node")
             .args([format!("web/tests/{test}.mjs")])
             .run()?;

@@ -1,5 +1,7 @@
 //! Compares every shader with the Rust side: bindings, structures and constants.
 
+use std::path::Path;
+
 use super::constants::*;
 use super::layouts::*;
 use super::shaders::{self, SortedLists, Team};
@@ -32,6 +34,17 @@ pub(super) fn sources() -> Vec<Source> {
         sources.push(shaders::layers(samples));
     }
     sources
+}
+
+#[test]
+#[ignore = "writes files for web/tests/shaders.mjs"]
+fn write_every_shader() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/web/shaders");
+    std::fs::create_dir_all(&folder).unwrap();
+    for (index, source) in sources().iter().enumerate() {
+        let name = format!("{index:02} {}.wgsl", source.name);
+        std::fs::write(folder.join(name), &*source.wgsl).unwrap();
+    }
 }
 
 #[test]

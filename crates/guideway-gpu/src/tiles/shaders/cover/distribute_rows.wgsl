@@ -48,8 +48,7 @@ fn cover_distributed_rows(team: Team, items: u32) {
 // so what one batch fills, the next can skip. All teams have equally many batches.
 fn cover_list(team: Team, tile: Tile, list: vec2u) {
     let tests_open = list.y - list.x > MAX_UNTESTED_LIST;
-    let threads = team.lanes * team.teams;
-    let team_batches = (list.y - list.x + threads - 1u) / threads;
+    let team_batches = batches_of_team(team, list.y - list.x);
     let batches = team_batches * team.teams;
     for (var number = 0u; number < team_batches; number++) {
         let batch = team.number * team_batches + number;

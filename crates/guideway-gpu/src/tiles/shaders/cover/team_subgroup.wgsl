@@ -24,6 +24,12 @@ fn team_of(thread: Thread) -> Team {
     return Team(thread.lane, thread.lanes, thread.team, thread.teams);
 }
 
+// Number of batches in which each team takes its share of lines.
+fn batches_of_team(team: Team, lines: u32) -> u32 {
+    let threads = team.lanes * team.teams;
+    return (lines + threads - 1u) / threads;
+}
+
 // Broadcasts lane 0's value. All lanes call this and the functions below together.
 fn team_broadcast(team: Team, number: u32) -> u32 {
     return subgroupBroadcastFirst(number);

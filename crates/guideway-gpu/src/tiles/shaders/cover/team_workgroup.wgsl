@@ -15,6 +15,12 @@ fn team_of(thread: Thread) -> Team {
     return Team(thread.number, THREADS, 0u, 1u);
 }
 
+// Number of batches in which each team takes its share of lines. It comes from a constant: the
+// threads may meet in a loop only if its length is the same for all.
+fn batches_of_team(team: Team, lines: u32) -> u32 {
+    return (lines + THREADS - 1u) / THREADS;
+}
+
 // Broadcasts lane 0's value. All lanes call this and the functions below together.
 fn team_broadcast(team: Team, number: u32) -> u32 {
     if team.lane == 0u {

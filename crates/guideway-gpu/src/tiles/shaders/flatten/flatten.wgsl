@@ -22,7 +22,8 @@ override THREADS: u32;
 override MAX_PARTS_LOG2: u32;
 override TARGET_WORKGROUPS: u32;
 
-var<workgroup> cluster_count: u32;
+// Parts of clusters that workgroups take.
+var<workgroup> part_count: u32;
 // Workgroups per cluster (log2). In workgroup memory because a register would lower the occupancy.
 var<workgroup> parts_log2: u32;
 var<workgroup> drawn_paths: atomic<u32>;
@@ -72,12 +73,13 @@ fn main(
     @builtin(local_invocation_index) thread: u32,
 ) {
     if thread == 0u {
-        cluster_count = visible_cluster_count();
-        let parts = clamp(TARGET_WORKGROUPS / max(cluster_count, 1u), 1u, 1u << MAX_PARTS_LOG2);
+        let visible = visible_cluster_count();
+        let parts = clamp(TARGET_WORKGROUPS / max(visible, 1u), 1u, 1u << MAX_PARTS_LOG2);
         parts_log2 = firstLeadingBit(parts);
+        part_count = visible << parts_log2;
     }
-    let groups = workgroupUniformLoad(&cluster_count) << parts_log2;
-    for (var i = workgroup_index(id, count); i < groups; i += count.x * count.y) {
+    let parts = workgroupUniformLoad(&part_count);
+    for (var i = workgroup_index(id, count); i < parts; i += count.x * count.y) {
         let index = visible_cluster(i >> parts_log2);
         let cluster = clusters[index];
         count_reads(1u + CLUSTER_WORDS);
