@@ -1,7 +1,8 @@
 // Builds the page, one HTML file with style and script into which engine and layout are put, and the
-// npm package with the element. Usage: node build.mjs FOLDER PAGE. The whole page goes to
-// FOLDER/guideway.html, its parts go as gzip to PAGE, from where the command takes them, with the
-// module of the widget for notebooks. The package goes to dist beside this file.
+// npm package with the element. Usage: node build.mjs FOLDER PAGE SYMBOLS, a font. The whole page
+// goes to FOLDER/guideway.html, its parts go as gzip to PAGE, from where the command takes them,
+// with the font and the module of the widget for notebooks. The package goes to dist beside this
+// file.
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
@@ -9,7 +10,7 @@ import { copyFile, mkdir, readFile, rm, stat, writeFile } from "node:fs/promises
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 
-const [folder, pageFolder] = process.argv.slice(2);
+const [folder, pageFolder, symbolsFile] = process.argv.slice(2);
 const source = (name) => join(import.meta.dirname, "src", name);
 
 async function bundle(entry, options) {
@@ -66,19 +67,25 @@ if ((await changed(engineFile)) < (await changed(from))) {
 const packed = gzipSync(await readFile(engineFile), { level: 9 });
 await mkdir(pageFolder, { recursive: true });
 await writeFile(join(pageFolder, "engine.wasm.gz"), packed);
+const symbols = gzipSync(await readFile(symbolsFile), { level: 9 });
+await writeFile(join(pageFolder, "symbols.ttf.gz"), symbols);
 await writeFile(join(pageFolder, "page.html.gz"), gzipSync(page, { level: 9 }));
 // The widget's engine comes from Python, never by address.
 const noUrl = { "import.meta.url": '""' };
 const widget = await bundle("widget.ts", { plugins, format: "esm", define: noUrl });
 await writeFile(join(pageFolder, "widget.js.gz"), gzipSync(widget, { level: 9 }));
-const element = `<script type="text/plain" id="engine">${packed.toString("base64")}</script>`;
-await writeFile(join(folder, "guideway.html"), page.replace("<!--ENGINE-->", () => element));
+const part = (id, bytes) => {
+  return `<script type="text/plain" id="${id}">${bytes.toString("base64")}</script>\n`;
+};
+const parts = part("engine", packed) + part("symbols", symbols);
+await writeFile(join(folder, "guideway.html"), page.replace("<!--ENGINE-->", () => parts));
 
 const dist = join(import.meta.dirname, "dist");
 await rm(dist, { recursive: true, force: true });
 await mkdir(dist);
 await writeFile(join(dist, "guideway.js"), await bundle("package.ts", { plugins, format: "esm" }));
 await writeFile(join(dist, "engine.wasm.gz"), packed);
+await writeFile(join(dist, "symbols.ttf.gz"), symbols);
 for (const license of ["LICENSE-APACHE", "LICENSE-MIT"]) {
   await copyFile(join(import.meta.dirname, "..", license), join(dist, license));
 }

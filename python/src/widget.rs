@@ -15,13 +15,21 @@ use crate::layout::PyLayout;
 
 /// The engine, as gzip: that of `guideway share`.
 const ENGINE: &[u8] = include_bytes!("../../crates/guideway/page/engine.wasm.gz");
-/// The module of the widget, as gzip: `cargo xtask web` makes both.
+/// The font of symbols, as gzip.
+const SYMBOLS: &[u8] = include_bytes!("../../crates/guideway/page/symbols.ttf.gz");
+/// The module of the widget, as gzip: `cargo xtask web` makes all three.
 const MODULE: &[u8] = include_bytes!("../../crates/guideway/page/widget.js.gz");
 
 /// The engine for browsers, as gzip.
 #[pyfunction]
 pub(crate) fn widget_engine(py: Python<'_>) -> Bound<'_, PyBytes> {
     PyBytes::new(py, ENGINE)
+}
+
+/// The font of symbols, as gzip.
+#[pyfunction]
+pub(crate) fn widget_symbols(py: Python<'_>) -> Bound<'_, PyBytes> {
+    PyBytes::new(py, SYMBOLS)
 }
 
 /// The JavaScript module of the widget, as gzip.

@@ -43,6 +43,7 @@ def test_the_browser_gets_the_engine_and_all_of_the_layout(
 ) -> None:
     state = widget.get_state()
     assert state["_engine"] == (PAGE / "engine.wasm.gz").read_bytes()
+    assert state["_symbols"] == (PAGE / "symbols.ttf.gz").read_bytes()
     assert state["_esm"].encode() == gzip.decompress((PAGE / "widget.js.gz").read_bytes())
     again = guideway.open(io.BytesIO(state["_layout"]))
     assert len(again) == 326 and site.diff(again) == []

@@ -84,6 +84,9 @@ export interface Diff {
 }
 
 /** What a picture shows: crates/guideway-web/src/look.rs. */
+/** Where the font of symbols is: base64 of gzip, or an address. */
+export type Symbols = { packed: string } | { url: string };
+
 export interface Look {
   width: number;
   height: number;
@@ -110,6 +113,13 @@ export interface Look {
   route?: { from: string; to: string; vehicleType?: string };
 }
 
+/** Where an image lies: its scale, its rotation about its lower left corner, and this corner. */
+export interface Placement {
+  pxPerM: number;
+  rotateDeg: number;
+  offset: Point;
+}
+
 /** What a shared file says beside its layout: crates/guideway/src/cli/share. */
 export interface Shared {
   name: string;
@@ -117,7 +127,7 @@ export interface Shared {
   look: Partial<Look>;
   floorPlan?: {
     name: string;
-    placement: { pxPerM: number; rotateDeg: number; offset: Point } | null;
+    placement: Placement | null;
   };
 }
 

@@ -1,11 +1,12 @@
 // What the element fetches from servers: layouts, and the engine, which all elements share.
 
 import { GuidewayError } from "./engine.js";
+import { unpacked } from "./gzip.js";
 
-/** The address of the engine beside this module, which has no address of its own in a notebook. */
-export function engineBesideModule(): string | URL {
+/** The address of a file beside this module, which has no address of its own in a notebook. */
+export function besideModule(name: string): string | URL {
   try {
-    return new URL("./engine.wasm.gz", import.meta.url);
+    return new URL(name, import.meta.url);
   } catch {
     return "";
   }
@@ -50,12 +51,4 @@ export function compiled(url: string): Promise<WebAssembly.Module> {
   // The next element tries again.
   engine.catch(() => engines.delete(url));
   return engine;
-}
-
-/** Some servers send a gzip file as it is, others let the browser unpack it. */
-function unpacked(bytes: ArrayBuffer): ArrayBuffer | Promise<ArrayBuffer> {
-  const [first, second] = new Uint8Array(bytes);
-  if (first !== 0x1f || second !== 0x8b) return bytes;
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
 }

@@ -1,8 +1,8 @@
 // `<guideway-view>`: a layout in a page of others, with events, and vehicles that move.
 
 import type { Box, Details, Findings, Info, Look, Picture, Point } from "./answers.js";
-import type { Report, Route, Summary } from "./answers.js";
-import { compiled, download, engineBesideModule, nameOf } from "./download.js";
+import type { Placement, Report, Route, Summary } from "./answers.js";
+import { besideModule, compiled, download, nameOf } from "./download.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
 import type { ElementName, GuidewayViewEvents, Picked } from "./events.js";
 import { DARK, GuidewayMap, LIGHT, paintElement, type View } from "./map.js";
@@ -30,7 +30,9 @@ export class GuidewayView extends Base {
     ...SWITCHES,
   ];
   /** The address of the engine; set it before the first element is in a page. */
-  static engineUrl: string | URL = engineBesideModule();
+  static engineUrl: string | URL = besideModule("engine.wasm.gz");
+  /** The address of the font of symbols, which is fetched when a name has one. */
+  static symbolsUrl: string | URL = besideModule("symbols.ttf.gz");
 
   private readonly shadow: Shadow;
   private readonly map: GuidewayMap;
@@ -42,12 +44,11 @@ export class GuidewayView extends Base {
   /** Colors or density, as the first picture of the layout needs. */
   private shade: Look["shade"] | undefined;
   private extra: Partial<Look> = {};
+  private hasFloorPlan = false;
   private highlighted: Details[] = [];
   private highlightColor = HIGHLIGHT;
-  /** Calls so far: of two, the later one holds, whichever answer comes last. */
-  private highlights = 0;
-  private selections = 0;
-  private pointings = 0;
+  /** The last call for each purpose: of two, the later one holds, whichever answer comes last. */
+  private readonly last = new Map<"highlight" | "select" | "point", Promise<unknown>>();
   private hovered: Picked | undefined;
   private selectedVehicle: string | undefined;
 
@@ -74,7 +75,8 @@ export class GuidewayView extends Base {
 
   connectedCallback(): void {
     if (this.engine) return;
-    this.engine = new Engine(compiled(String(GuidewayView.engineUrl)));
+    const { engineUrl, symbolsUrl } = GuidewayView;
+    this.engine = new Engine(compiled(String(engineUrl)), { url: String(symbolsUrl) });
     this.engine.onprogress = (share) => this.shadow.advance(share);
     this.dress();
     void this.load();
@@ -134,6 +136,19 @@ export class GuidewayView extends Base {
     return this.openBytes(file.name, await file.arrayBuffer(), loading.signal);
   }
 
+  /**
+   * Shows a file below the paths: a layout, a drawing, or an image with its place. `null` removes
+   * it, as another layout does.
+   */
+  async setFloorPlan(file: File | null, placement?: Placement): Promise<void> {
+    if (file) {
+      const bytes = await file.arrayBuffer();
+      await this.call("floorPlan", [file.name, bytes, placement ?? null], [bytes]);
+    }
+    this.hasFloorPlan = file !== null;
+    this.dress();
+  }
+
   /** Shows all of the layout. */
   fit(): void {
     this.map.fit();
@@ -151,32 +166,45 @@ export class GuidewayView extends Base {
 
   /** Outlines elements in a color, in place of those before; an empty list ends it. */
   async highlight(of: Iterable<ElementName>, color = HIGHLIGHT): Promise<void> {
-    const turn = ++this.highlights;
-    const found = await Promise.all([...of].map((name) => this.details(name)));
-    if (turn !== this.highlights) return;
-    this.highlighted = found;
-    this.highlightColor = color;
-    this.map.paint();
+    const found = Promise.all([...of].map((name) => this.details(name)));
+    await this.settle("highlight", found, (found) => {
+      this.highlighted = found;
+      this.highlightColor = color;
+    });
   }
 
   /** Selects an element as a click does, without an event. */
   async select(of: ElementName | null): Promise<void> {
-    const turn = ++this.selections;
     const vehicle = this.vehicleNamed(of);
-    const found = of === null || vehicle ? undefined : await this.details(of);
-    if (turn !== this.selections) return;
-    this.selectedVehicle = vehicle?.id;
-    this.pointer.selected = found;
-    this.map.paint();
+    await this.settle("select", this.outlined(of), (found) => {
+      this.selectedVehicle = vehicle?.id;
+      this.pointer.selected = found;
+    });
   }
 
   /** Outlines an element as the pointer does, without an event. */
   async pointAt(of: ElementName | null): Promise<void> {
-    const turn = ++this.pointings;
-    const found = of === null || this.vehicleNamed(of) ? undefined : await this.details(of);
-    if (turn !== this.pointings) return;
-    this.pointer.hovered = found;
+    await this.settle("point", this.outlined(of), (found) => {
+      this.pointer.hovered = found;
+    });
+  }
+
+  /** Applies an answer, unless a later call for the same purpose has begun. */
+  private async settle<T>(
+    purpose: "highlight" | "select" | "point",
+    answer: Promise<T>,
+    apply: (found: T) => void,
+  ): Promise<void> {
+    this.last.set(purpose, answer);
+    const found = await answer;
+    if (this.last.get(purpose) !== answer) return;
+    apply(found);
     this.map.paint();
+  }
+
+  /** The element that gets an outline; vehicles are painted otherwise. */
+  private async outlined(of: ElementName | null): Promise<Details | undefined> {
+    return of === null || this.vehicleNamed(of) ? undefined : this.details(of);
   }
 
   private vehicleNamed(of: ElementName | null): Vehicle | undefined {
@@ -278,9 +306,8 @@ export class GuidewayView extends Base {
   private close(): void {
     this.opened = this.shade = this.hovered = this.selectedVehicle = undefined;
     this.highlighted = [];
-    this.highlights++;
-    this.selections++;
-    this.pointings++;
+    this.hasFloorPlan = false;
+    this.last.clear();
     this.pointer.forget();
     this.map.reset();
     this.map.paint();
@@ -314,6 +341,7 @@ export class GuidewayView extends Base {
     }
     for (const name of SWITCHES) look[camel(name)] = this.hasAttribute(name);
     const shade = this.getAttribute("shade") ?? "auto";
+    look["floorPlan"] = this.hasFloorPlan;
     look["shade"] = shade === "auto" ? (this.shade ?? shade) : shade;
     this.map.look = { ...look, ...this.extra };
     this.shadow.label(this.getAttribute("aria-label"));

@@ -1,6 +1,7 @@
 // The engine as the page calls it: a worker that is started again when it stops.
 
 import workerSource from "worker-source";
+import type { Symbols } from "./answers.js";
 import { t } from "./text.js";
 
 /** A failure in the words of the command. */
@@ -46,7 +47,10 @@ export class Engine {
   private isStarted = false;
   started!: Promise<void>;
 
-  constructor(private readonly source: Source | Promise<Source>) {
+  constructor(
+    private readonly source: Source | Promise<Source>,
+    private readonly symbols?: Symbols,
+  ) {
     this.url = URL.createObjectURL(new Blob([workerSource], { type: "text/javascript" }));
     this.restart();
   }
@@ -59,7 +63,7 @@ export class Engine {
     worker.onmessage = ({ data }) => this.answer(data);
     worker.onerror = (event) => this.fail(event.message ?? "the worker did not start");
     this.started = Promise.resolve(this.source)
-      .then((source) => this.post<void>(worker, "start", [source]))
+      .then((source) => this.post<void>(worker, "start", [source, this.symbols]))
       .then(() => void (this.isStarted = true));
     this.started.catch(() => {});
   }

@@ -1,9 +1,11 @@
 // The page: opens files and the shared layout, joins map, panels and engine.
 
-import type { Details, Finding, Info, Picture, Point, Reference, Shared } from "./answers.js";
+import type { Details, Finding, Info, Picture, Placement, Point } from "./answers.js";
+import type { Reference, Shared } from "./answers.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
 import { GuidewayMap, paintElement } from "./map.js";
 import { Panels, byId, cells, item } from "./panels.js";
+import { connectPlan } from "./plan.js";
 import { Pointer } from "./pointer.js";
 import { count, language, meters, t } from "./text.js";
 
@@ -14,7 +16,8 @@ const LENGTH_ROWS = 50_000;
 
 const packedEngine = byId("engine").textContent!.trim();
 const shared: Shared | undefined = readShared();
-const engine = new Engine(packedEngine);
+const symbols = document.getElementById("symbols")?.textContent?.trim();
+const engine = new Engine(packedEngine, symbols ? { packed: symbols } : undefined);
 const map = new GuidewayMap(byId<HTMLCanvasElement>("map"));
 const panels = new Panels();
 const pointer = new Pointer((...call) => engine.call(...call));
@@ -78,7 +81,24 @@ async function open(file: File): Promise<void> {
     const bytes = await file.arrayBuffer();
     return engine.call<Info>("open", [file.name, bytes], [bytes]);
   });
-  if (opened) show(opened);
+  if (!opened) return;
+  // A plan belongs to the layout that it was added to.
+  for (const id of ["floor-plan-of", "plan-place"]) byId(id).hidden = true;
+  show(opened);
+}
+
+/** Shows a file below the paths. */
+async function addPlan(file: File, placement: Placement | null): Promise<void> {
+  const isRead = await busy(`${file.name}: ${t("reading")}`, async () => {
+    const bytes = await file.arrayBuffer();
+    await engine.call("floorPlan", [file.name, bytes, placement], [bytes]);
+    return true;
+  });
+  if (!isRead) return;
+  byId("floor-plan-of").hidden = false;
+  byId<HTMLInputElement>("floorPlan").checked = true;
+  panels.readLook(map.look);
+  void map.refresh();
 }
 
 function show(opened: Info): void {
@@ -342,6 +362,7 @@ function connect(): void {
   for (const button of document.querySelectorAll<HTMLElement>("[data-picture]")) {
     button.onclick = () => void savePicture(button.dataset["picture"]!);
   }
+  connectPlan((file, placement) => void addPlan(file, placement));
   panels.onlook = () => {
     panels.readLook(map.look);
     void map.refresh();

@@ -33,6 +33,11 @@ const german: Record<string, string> = {
   "Dark": "Dunkel",
   "Palette": "Palette",
   "Floor plan": "Grundriss",
+  "Add a floor plan": "Grundriss hinzufügen",
+  "Pixels per meter": "Pixel je Meter",
+  "Rotation in degrees": "Drehung in Grad",
+  "Left edge in meters": "Linker Rand in Metern",
+  "Lower edge in meters": "Unterer Rand in Metern",
   "Swept areas": "Überstrichene Flächen",
   "Length x width of the vehicle in meters, such as 2x1.2":
     "Länge x Breite des Fahrzeugs in Metern, etwa 2x1.2",

@@ -1,12 +1,16 @@
 // The worker: unpacks the engine, holds the open layout, answers one call after the other.
 
-import init, { Session } from "../engine/guideway_web.js";
+import init, { Session, add_font, has_missed_letters } from "../engine/guideway_web.js";
+import type { Symbols } from "./answers.js";
+import { unpacked, unpackedText } from "./gzip.js";
 
 type Message = { id: number; call: string; args: unknown[] };
 
 let session: Session | undefined;
 let memory: WebAssembly.Memory;
 let told = 0;
+/** The font of symbols, until it is needed. */
+let symbols: Symbols | undefined;
 
 /** Called by the engine while it reads: the finished share, at most ten times a second. */
 (self as unknown as Record<string, unknown>)["guidewayProgress"] = (share: number) => {
@@ -17,16 +21,29 @@ let told = 0;
   }
 };
 
-function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-  return bytes;
+async function symbolsOf(of: Symbols): Promise<ArrayBuffer | undefined> {
+  if ("packed" in of) return unpackedText(of.packed);
+  const response = await fetch(of.url);
+  return response.ok ? unpacked(await response.arrayBuffer()) : undefined;
 }
 
-async function unpacked(base64: string): Promise<ArrayBuffer> {
-  const packed = new Blob([bytesOf(base64)]).stream();
-  return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+/** Draws, and once more if letters are missing that the font of symbols may have. */
+async function drawn<T>(draw: () => T): Promise<T> {
+  const first = draw();
+  const of = symbols;
+  if (!of || !has_missed_letters()) return first;
+  symbols = undefined;
+  // Without it, boxes stand for the letters.
+  const font = await symbolsOf(of).catch(() => undefined);
+  return font && add_font(new Uint8Array(font)) ? draw() : first;
+}
+
+function render(look: { width: number; height: number }) {
+  const drawn = opened().render(JSON.stringify(look));
+  const report = JSON.parse(drawn.report);
+  const rgba = drawn.take_rgba().buffer;
+  drawn.free();
+  return { width: look.width, height: look.height, rgba, report };
 }
 
 function opened(): Session {
@@ -42,25 +59,21 @@ function replace(name: string, bytes: Uint8Array): unknown {
 }
 
 const calls: Record<string, (...args: never[]) => unknown> = {
-  start: async (engine: string | WebAssembly.Module) => {
-    const source = typeof engine === "string" ? await unpacked(engine) : engine;
+  start: async (engine: string | WebAssembly.Module, symbolsHere?: Symbols) => {
+    symbols = symbolsHere;
+    const source = typeof engine === "string" ? await unpackedText(engine) : engine;
     memory = (await init({ module_or_path: source })).memory;
   },
   open: (name: string, bytes: ArrayBuffer) => replace(name, new Uint8Array(bytes)),
   openPacked: async (name: string, base64: string) =>
-    replace(name, new Uint8Array(await unpacked(base64))),
-  floorPlan: async (name: string, base64: string, placement: unknown) => {
-    const bytes = new Uint8Array(await unpacked(base64));
+    replace(name, new Uint8Array(await unpackedText(base64))),
+  /** The file is base64 of gzip in a shared page. */
+  floorPlan: async (name: string, file: string | ArrayBuffer, placement: unknown) => {
+    const bytes = new Uint8Array(typeof file === "string" ? await unpackedText(file) : file);
     opened().set_floor_plan(name, bytes, JSON.stringify(placement));
   },
   envelope: (text: string) => opened().check_envelope(text),
-  render: (look: { width: number; height: number }) => {
-    const drawn = opened().render(JSON.stringify(look));
-    const report = JSON.parse(drawn.report);
-    const rgba = drawn.take_rgba().buffer;
-    drawn.free();
-    return { width: look.width, height: look.height, rgba, report };
-  },
+  render: (look: { width: number; height: number }) => drawn(() => render(look)),
   memory: () => memory.buffer.byteLength,
   length: (first: number, most: number) => opened().length_m(first, most),
   check: (most: number) => JSON.parse(opened().check(most)),
@@ -75,8 +88,9 @@ const calls: Record<string, (...args: never[]) => unknown> = {
     other.free();
     return found;
   },
-  png: (look: unknown) => opened().png(JSON.stringify(look)).buffer,
-  curves: (look: unknown, format: string) => opened().curves(JSON.stringify(look), format).buffer,
+  png: (look: unknown) => drawn(() => opened().png(JSON.stringify(look)).buffer),
+  curves: (look: unknown, format: string) =>
+    drawn(() => opened().curves(JSON.stringify(look), format).buffer),
   save: (format: string) => {
     const saved = opened().save(format);
     const losses = JSON.parse(saved.losses);

@@ -50,6 +50,7 @@ async function open(traits = {}, layout = "/crates/guideway/examples/site.lif.js
       const address = () => URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
       window.model = new Model();
       model.traits._engine = await bytes("/crates/guideway/page/engine.wasm.gz");
+      model.traits._symbols = await bytes("/crates/guideway/page/symbols.ttf.gz");
       model.traits._layout = await bytes(${JSON.stringify(layout)});
       window.mount = async (el) => (await import(address())).default.render({ model, el });
       window.painted = () => new Promise((resolve) => {
@@ -74,7 +75,7 @@ async function open(traits = {}, layout = "/crates/guideway/examples/site.lif.js
 
 const traits = (page) =>
   page.evaluate(() => {
-    const { _engine, _layout, ...others } = model.traits;
+    const { _engine, _symbols, _layout, ...others } = model.traits;
     return others;
   });
 /** Sets traits as Python does, and waits until a trait has a value. */

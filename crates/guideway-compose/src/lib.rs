@@ -51,6 +51,7 @@ mod center_lines;
 mod crowd;
 mod decorations;
 mod error;
+mod kept_method;
 mod levels;
 mod overlay;
 mod page;
@@ -75,9 +76,12 @@ pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, 
 pub use guideway_document::text_format;
 pub use guideway_formats::lock_regular_file;
 pub use guideway_formats::raster::ImagePlacement;
+pub use kept_method::KeptMethod;
 pub use picture::{LevelPart, Picture, Viewport};
 pub use png_writer::{PngHeader, save_png, save_png_by, world_file, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};
-pub use text::{SystemFont, system_font};
+#[cfg(not(target_arch = "wasm32"))]
+pub use text::needs_symbols;
+pub use text::{SystemFont, add_font, has_missed_letters, system_font};
 pub use vector_file::VectorFormat;
 pub use widths::suitable_widths;

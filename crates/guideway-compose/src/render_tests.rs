@@ -10,7 +10,7 @@ use guideway_scene::{
 use guideway_spline::Point;
 
 use super::*;
-use crate::{Backdrop, Decorations, FloorPlan, SweptAreas};
+use crate::{Backdrop, Decorations, FloorPlan, KeptMethod, SweptAreas};
 
 /// Method `cpu` with another limit on the pixels per strip.
 struct InStrips(usize);
@@ -132,7 +132,7 @@ fn with_backdrop() -> Picture {
     let scene = site(&SceneOptions::default());
     let mut picture = plain();
     picture.backdrop = Backdrop {
-        floor_plan: Some(FloorPlan::Paths(Arc::clone(&scene))),
+        floor_plan: Some(FloorPlan::Paths(Arc::clone(&scene), KeptMethod::default())),
         lines: shapes(),
         swept: Some(SweptAreas {
             vehicle: guideway_envelope::EnvelopeSource::Vehicle(guideway_envelope::Body::vehicle(

@@ -35,6 +35,20 @@ pub struct JsDrawn(Drawn);
 #[wasm_bindgen(js_name = Saved)]
 pub struct JsSaved(Saved);
 
+/// See [`guideway::compose::add_font`].
+#[wasm_bindgen]
+#[expect(unreachable_pub, reason = "JavaScript calls it")]
+pub fn add_font(data: Vec<u8>) -> bool {
+    guideway::compose::add_font(data)
+}
+
+/// See [`guideway::compose::has_missed_letters`].
+#[wasm_bindgen]
+#[expect(unreachable_pub, reason = "JavaScript calls it")]
+pub fn has_missed_letters() -> bool {
+    guideway::compose::has_missed_letters()
+}
+
 fn thrown(error: UserError) -> JsValue {
     let UserError {
         code,

@@ -8,7 +8,6 @@
 //! |---|---|
 //! | `session` | opens a layout; pictures, findings, routes, differences, files |
 //! | `look` | what a picture shows, as the page asks for it |
-//! | `kept_method` | the render method, which keeps what it prepared for the last scene |
 //! | `floor_plan` | the drawing or the image below the paths |
 //! | `elements` | properties, outlines, hit test, search |
 //! | `answers` | layouts, findings, routes and changes as JSON |
@@ -19,7 +18,6 @@ mod answers;
 mod bindings;
 mod elements;
 mod floor_plan;
-mod kept_method;
 mod look;
 mod session;
 

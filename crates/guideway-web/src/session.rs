@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 use guideway::compose::{
-    ComposeError, FloorPlan, MarkedRoute, NoProgress, Picture, VectorFormat, Viewport,
+    ComposeError, FloorPlan, KeptMethod, MarkedRoute, NoProgress, Picture, VectorFormat, Viewport,
     suitable_widths,
 };
 use guideway::document::{Index, pick_element};
@@ -21,7 +21,6 @@ use serde_json::{Value, json};
 use crate::answers;
 use crate::elements;
 use crate::floor_plan;
-use crate::kept_method::KeptMethod;
 use crate::look::{Look, RouteEnds, SceneKey, Shade, usage, vehicle};
 
 /// Paths among which the one under the pointer is sought.

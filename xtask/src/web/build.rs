@@ -1,17 +1,23 @@
 //! Builds engine, page and npm package, and puts page and engine where the command takes them from.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
+use serde_json::Value;
 
 use super::sources::{self, PAGE};
 use super::tools::{self, linker, wasm_bindgen};
 use crate::debian_rust::DebianRust;
-use crate::step::{command, heading};
+use crate::step::{cargo, command, heading};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The folder of what is fetched and built.
 const FOLDER: &str = "target/web";
+const IMMEDIATE_ABORT: &str = "profile.web.panic=\"immediate-abort\"";
+/// Compressors of zstd: the engine reads compressed files, and writes none.
+const COMPRESSORS: [&str; 7] = [
+    "DFAST", "GREEDY", "LAZY", "LAZY2", "BTLAZY2", "BTOPT", "BTULTRA",
+];
 
 /// Builds the page from its sources.
 pub(super) fn page() -> Result<()> {
@@ -26,6 +32,9 @@ pub(super) fn page() -> Result<()> {
     rust.cargo(&["rustc", "--locked", "--package", "guideway-web", "--lib"])
         .args(["--crate-type", "cdylib", "--profile", "web"])
         .args(["--target", TARGET, "-Zbuild-std=std,panic_abort"])
+        // A page hears of a panic as of any trap, and its text is a tenth of the engine.
+        .args(["-Zpanic-immediate-abort", "--config", IMMEDIATE_ABORT])
+        .env("CFLAGS_wasm32_unknown_unknown", zstd_flags())
         .env("CARGO_TARGET_DIR", folder.join("cargo"))
         .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker()?)
         .env("RUSTFLAGS", flags)
@@ -45,6 +54,7 @@ pub(super) fn page() -> Result<()> {
     npm(&["exec", "tsc", "--", "--project", "."])?;
     command("node")
         .args(["web/build.mjs", FOLDER, PAGE])
+        .args([symbols()?])
         .run()?;
     sources::record()?;
     let page = Path::new(FOLDER).join("guideway.html");
@@ -52,4 +62,27 @@ pub(super) fn page() -> Result<()> {
     println!("the npm package is in web: npm pack");
     println!("the command shares it as soon as it is built again: guideway share SITE");
     Ok(())
+}
+
+/// Flags that leave unused parts out of zstd.
+fn zstd_flags() -> String {
+    let excluded = COMPRESSORS.map(|name| format!("-DZSTD_EXCLUDE_{name}_BLOCK_COMPRESSOR"));
+    let short = [
+        "-DHUF_FORCE_DECOMPRESS_X1",
+        "-DZSTD_FORCE_DECOMPRESS_SEQUENCES_SHORT",
+    ];
+    format!("{} {}", excluded.join(" "), short.join(" "))
+}
+
+/// The font of symbols, in the sources of the crate that has it.
+fn symbols() -> Result<PathBuf> {
+    let metadata = cargo(&["metadata", "--locked", "--format-version", "1"]).capture()?;
+    let metadata: Value = serde_json::from_str(&metadata.stdout)?;
+    let mut packages = metadata["packages"].as_array().into_iter().flatten();
+    let found = packages.find(|package| package["name"] == "epaint_default_fonts");
+    let manifest = found.and_then(|package| package["manifest_path"].as_str());
+    let manifest = Path::new(manifest.context("no crate has the font of symbols")?);
+    Ok(manifest
+        .with_file_name("fonts")
+        .join("NotoEmoji-Regular.ttf"))
 }

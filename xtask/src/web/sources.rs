@@ -9,10 +9,11 @@ use crate::step::command;
 /// The page as the command holds it.
 pub(super) const PAGE: &str = "crates/guideway/page";
 /// Folders and files whose change makes the page stale.
-const SOURCES: [&str; 16] = [
+const SOURCES: [&str; 17] = [
     "Cargo.lock",
     "crates/guideway/src/json.rs",
     "crates/guideway/src/lib.rs",
+    "crates/guideway-compose/build.rs",
     "crates/guideway-compose/src",
     "crates/guideway-cpu/src",
     "crates/guideway-document/src",

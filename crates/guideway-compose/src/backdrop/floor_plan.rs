@@ -6,7 +6,6 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway_cpu::Cpu;
 use guideway_formats::raster::is_raster;
 use guideway_formats::ros_map::{OccupancyGrid, is_ros_map};
 use guideway_layout::Layout;
@@ -17,9 +16,9 @@ use guideway_scene::{
 use guideway_spline::Bounds;
 
 use super::image::Image;
-use crate::ComposeError;
 use crate::page::Page;
 use crate::vector::outline;
+use crate::{ComposeError, KeptMethod};
 
 /// Color of all paths of a floor plan: pale, so that the layout stands out.
 const PATH_COLOR: Rgba = Rgba::opaque(0xC2, 0xCA, 0xD3);
@@ -34,8 +33,8 @@ const LINES: LineRule = LineRule::World {
 /// The bottom layer of a picture. Clones share its content.
 #[derive(Clone)]
 pub enum FloorPlan {
-    /// Paths, drawn as thin pale lines.
-    Paths(Arc<Scene>),
+    /// Paths, drawn as thin pale lines. The method keeps its preparation for the next picture.
+    Paths(Arc<Scene>, KeptMethod),
     /// An image that lies on the floor.
     Image(Arc<Image>),
 }
@@ -58,7 +57,7 @@ impl FloorPlan {
         layout.paths.set_color_rgba(vec![PATH_COLOR.to_u32(); rows]);
         layout.paths.set_width_m(vec![f32::NAN; rows]);
         let scene = Scene::new(Arc::new(layout), &SceneOptions::default())?;
-        Ok(Self::Paths(Arc::new(scene)))
+        Ok(Self::Paths(Arc::new(scene), KeptMethod::default()))
     }
 
     /// A floor plan that shows a map of ROS where the map lies.
@@ -74,7 +73,7 @@ impl FloorPlan {
     /// Bounding box in meters; `None` for a layout without paths.
     pub fn bounds(&self) -> Option<Bounds<f64>> {
         match self {
-            Self::Paths(scene) => scene.bounds(),
+            Self::Paths(scene, _) => scene.bounds(),
             Self::Image(image) => Some(image.bounds()),
         }
     }
@@ -85,7 +84,9 @@ impl FloorPlan {
     /// When the paths exceed the memory budget.
     pub fn prepare(&self, budget: &Budget) -> Result<PreparedFloorPlan, ComposeError> {
         Ok(match self {
-            Self::Paths(scene) => PreparedFloorPlan::Paths(Cpu.prepare(Arc::clone(scene), budget)?),
+            Self::Paths(scene, method) => {
+                PreparedFloorPlan::Paths(method.prepare(Arc::clone(scene), budget)?)
+            }
             Self::Image(image) => PreparedFloorPlan::Image(Arc::clone(image)),
         })
     }
@@ -94,7 +95,7 @@ impl FloorPlan {
     pub(super) fn write(&self, view: &View, page: &mut impl Page) -> io::Result<()> {
         match self {
             Self::Image(image) => image.write(view, page),
-            Self::Paths(scene) => {
+            Self::Paths(scene, _) => {
                 for &path in scene.draw_order() {
                     let width_px = 2.0 * LINES.radius_px(None, view.px_per_m());
                     let outline = outline(scene, path, view, width_px);

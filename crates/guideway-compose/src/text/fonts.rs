@@ -1,51 +1,32 @@
-//! Selects the font of a character: the embedded fonts first, then the fonts of the system.
+//! Selects the font of a character: the embedded fonts first, then those that were added, then the
+//! fonts of the system.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
-use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
-use epaint_default_fonts::{HACK_REGULAR, NOTO_EMOJI_REGULAR, UBUNTU_LIGHT};
-use harfrust::ShaperData;
-use skrifa::{FontRef, MetadataProvider};
+use super::font::Font;
+use super::system_fonts::SystemFonts;
 
-/// A font file, parsed once.
-pub(super) struct Font {
-    data: Cow<'static, [u8]>,
-    /// Position in a font collection.
-    index: u32,
-    pub(super) shaper: ShaperData,
-}
+/// The embedded fonts: monospaced Hack, Ubuntu Light for more letters, and symbols. Pages get the
+/// symbols in a part of their own, for they are larger than the letters and seldom needed.
+const EMBEDDED: &[&[u8]] = &[
+    include_bytes!(concat!(env!("OUT_DIR"), "/hack.ttf")),
+    include_bytes!(concat!(env!("OUT_DIR"), "/ubuntu.ttf")),
+    #[cfg(not(target_arch = "wasm32"))]
+    SYMBOLS,
+];
 
-impl Font {
-    fn new(data: Cow<'static, [u8]>, index: u32) -> Option<Self> {
-        let shaper = ShaperData::new(&FontRef::from_index(&data, index).ok()?);
-        Some(Self {
-            data,
-            index,
-            shaper,
-        })
-    }
-
-    /// The tables of the font. `None` never occurs after [`Font::new`] has parsed them.
-    pub(super) fn tables(&self) -> Option<FontRef<'_>> {
-        FontRef::from_index(&self.data, self.index).ok()
-    }
-
-    fn draws(&self, c: char) -> bool {
-        self.tables().is_some_and(|tables| draws(&tables, c))
-    }
-}
-
-/// Returns `true` if a font has an outline for a character; fonts of colored bitmaps have none.
-fn draws(tables: &FontRef<'_>, c: char) -> bool {
-    let glyph = tables.charmap().map(c);
-    glyph.is_some_and(|glyph| c.is_whitespace() || tables.outline_glyphs().get(glyph).is_some())
-}
+/// The embedded font of symbols.
+#[cfg(not(target_arch = "wasm32"))]
+const SYMBOLS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/symbols.ttf"));
 
 /// The fonts of all texts. Fonts of the system load when the first character needs them.
 pub(super) struct Fonts {
     embedded: Vec<Arc<Font>>,
+    given: Mutex<Vec<Arc<Font>>>,
     system: Option<LazyLock<Mutex<SystemFonts>>>,
+    has_missed: AtomicBool,
 }
 
 /// The fonts that all pictures share.
@@ -67,20 +48,44 @@ pub struct SystemFont {
 /// has none.
 pub fn system_font(c: char) -> Option<SystemFont> {
     let font = FONTS.find(c, None)?;
-    let (data, index) = (font.data.to_vec(), font.index);
-    Some(SystemFont { data, index })
+    let (data, index) = font.file();
+    Some(SystemFont {
+        data: data.to_vec(),
+        index,
+    })
+}
+
+/// Adds a font file for letters that the embedded fonts lack. Returns `false` if it is none.
+pub fn add_font(data: Vec<u8>) -> bool {
+    FONTS.add(data)
+}
+
+/// Returns `true` if a picture since the last call showed a box in place of a letter.
+pub fn has_missed_letters() -> bool {
+    FONTS.has_missed.swap(false, Ordering::Relaxed)
+}
+
+/// Returns `true` if a letter of a text is a symbol that the embedded fonts of letters lack.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn needs_symbols(text: &str) -> bool {
+    let [letters @ .., symbols] = &*FONTS.embedded else {
+        return false;
+    };
+    let is_symbol = |c| symbols.draws(c) && !letters.iter().any(|font| font.draws(c));
+    text.chars().any(|c| !c.is_ascii() && is_symbol(c))
 }
 
 impl Fonts {
-    /// The embedded fonts alone: monospaced Hack, Ubuntu Light for more letters, and symbols.
+    /// The embedded fonts alone.
     pub(super) fn embedded() -> Self {
-        let files = [HACK_REGULAR, UBUNTU_LIGHT, NOTO_EMOJI_REGULAR];
-        let fonts = files
-            .into_iter()
+        let fonts = EMBEDDED
+            .iter()
             .filter_map(|data| Font::new(Cow::Borrowed(data), 0));
         Self {
             embedded: fonts.map(Arc::new).collect(),
+            given: Mutex::default(),
             system: None,
+            has_missed: AtomicBool::new(false),
         }
     }
 
@@ -90,13 +95,30 @@ impl Fonts {
         if continues(c) && previous.is_some_and(|font| font.draws(c)) {
             return previous.cloned();
         }
-        let embedded = self.embedded.iter().find(|font| font.draws(c));
-        embedded.cloned().or_else(|| {
+        let draws = |font: &&Arc<Font>| font.draws(c);
+        let found = self.embedded.iter().find(draws).cloned();
+        let found = found.or_else(|| self.given().iter().find(draws).cloned());
+        let found = found.or_else(|| {
             let system = self.system.as_ref()?;
             // A cache of fonts is complete at any time, so a panic elsewhere does not spoil it.
             let mut system = system.lock().unwrap_or_else(PoisonError::into_inner);
             system.find(c)
-        })
+        });
+        if found.is_none() {
+            self.has_missed.store(true, Ordering::Relaxed);
+        }
+        found
+    }
+
+    fn add(&self, data: Vec<u8>) -> bool {
+        let font = Font::new(Cow::Owned(data), 0).map(Arc::new);
+        let is_font = font.is_some();
+        self.given().extend(font);
+        is_font
+    }
+
+    fn given(&self) -> MutexGuard<'_, Vec<Arc<Font>>> {
+        self.given.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -107,60 +129,6 @@ fn continues(c: char) -> bool {
         '\u{300}'..='\u{36F}' | '\u{1AB0}'..='\u{1AFF}' | '\u{1DC0}'..='\u{1DFF}'
         | '\u{200C}'..='\u{200D}' | '\u{20D0}'..='\u{20FF}' | '\u{FE00}'..='\u{FE0F}'
         | '\u{FE20}'..='\u{FE2F}' | '\u{E0100}'..='\u{E01EF}')
-}
-
-/// The fonts of the system and the characters that were looked up in them.
-struct SystemFonts {
-    database: fontdb::Database,
-    /// Upright fonts of regular weight first.
-    faces: Vec<fontdb::ID>,
-    loaded: HashMap<fontdb::ID, Option<Arc<Font>>>,
-    by_char: HashMap<char, Option<Arc<Font>>>,
-}
-
-impl SystemFonts {
-    fn load() -> Self {
-        let mut database = fontdb::Database::new();
-        database.load_system_fonts();
-        let mut faces: Vec<_> = database.faces().collect();
-        faces.sort_by_key(|face| {
-            let is_slanted = face.style != fontdb::Style::Normal;
-            let off_regular = face.weight.0.abs_diff(fontdb::Weight::NORMAL.0);
-            (is_slanted, off_regular, face.post_script_name.clone())
-        });
-        let faces = faces.into_iter().map(|face| face.id).collect();
-        Self {
-            database,
-            faces,
-            loaded: HashMap::new(),
-            by_char: HashMap::new(),
-        }
-    }
-
-    fn find(&mut self, c: char) -> Option<Arc<Font>> {
-        if let Some(known) = self.by_char.get(&c) {
-            return known.clone();
-        }
-        let has = |&id: &fontdb::ID| {
-            let found = self.database.with_face_data(id, |data, index| {
-                FontRef::from_index(data, index).is_ok_and(|tables| draws(&tables, c))
-            });
-            found == Some(true)
-        };
-        let id = self.faces.iter().copied().find(has);
-        let font = id.and_then(|id| self.font(id));
-        self.by_char.insert(c, font.clone());
-        font
-    }
-
-    fn font(&mut self, id: fontdb::ID) -> Option<Arc<Font>> {
-        let database = &self.database;
-        let font = self.loaded.entry(id).or_insert_with(|| {
-            let copy = |data: &[u8], index| Font::new(Cow::Owned(data.to_vec()), index);
-            database.with_face_data(id, copy).flatten().map(Arc::new)
-        });
-        font.clone()
-    }
 }
 
 #[cfg(test)]
@@ -176,8 +144,29 @@ mod tests {
     }
 
     #[test]
-    fn no_font_is_found_for_a_private_character() {
-        assert!(Fonts::embedded().find('\u{10FFFD}', None).is_none());
+    fn a_letter_is_missed_until_a_font_with_it_is_added() {
+        let fonts = Fonts {
+            embedded: Vec::new(),
+            ..Fonts::embedded()
+        };
+        let has_missed = || fonts.has_missed.swap(false, Ordering::Relaxed);
+        assert!(!has_missed());
+        assert!(fonts.find('⚡', None).is_none() && has_missed());
+        assert!(!fonts.add(b"no font".to_vec()));
+        assert!(fonts.add(SYMBOLS.to_vec()));
+        assert!(fonts.find('⚡', None).is_some() && !has_missed());
+        assert!(fonts.find('\u{10FFFD}', None).is_none() && has_missed());
+    }
+
+    #[test]
+    fn symbols_are_told_from_letters() {
+        for (text, expected) in [
+            ("Größe → Αθήνα №5", false),
+            ("⚡ charger", true),
+            ("漢", false),
+        ] {
+            assert_eq!(needs_symbols(text), expected, "{text}");
+        }
     }
 
     #[test]

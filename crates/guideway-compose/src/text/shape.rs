@@ -7,7 +7,8 @@ use guideway_scene::TextLine;
 use harfrust::{Direction, GlyphId, ShapeOptions, UnicodeBuffer};
 use unicode_bidi::{BidiInfo, Level};
 
-use super::fonts::{FONTS, Font, Fonts};
+use super::font::Font;
+use super::fonts::{FONTS, Fonts};
 
 /// Advance of the box of a letter that no font draws, in units of the font size: as Hack.
 const BOX_ADVANCE: f64 = TextLine::CHAR_ASPECT;

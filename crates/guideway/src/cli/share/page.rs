@@ -19,6 +19,8 @@ use crate::cli::floor_plan::PackedPlan;
 const PAGE: &[u8] = include_bytes!("../../../page/page.html.gz");
 /// The engine, as gzip.
 const ENGINE: &[u8] = include_bytes!("../../../page/engine.wasm.gz");
+/// The font of symbols, as gzip.
+const SYMBOLS: &[u8] = include_bytes!("../../../page/symbols.ttf.gz");
 /// The places of the page that engine and layout replace.
 const ENGINE_PLACE: &str = "<!--ENGINE-->";
 const SHARED_PLACE: &str = "<!--SHARED-->";
@@ -66,6 +68,16 @@ fn serialize_vehicle<S: Serializer>(
     vehicle.map(envelope::name).serialize(serializer)
 }
 
+/// The files that a page holds.
+pub(super) struct PageContent<'a> {
+    /// The layout.
+    pub(super) layout: &'a [u8],
+    /// The floor plan.
+    pub(super) plan: Option<&'a PackedPlan>,
+    /// Adds the font of symbols, a third of a megabyte.
+    pub(super) has_symbols: bool,
+}
+
 /// Puts a layout and its floor plan into the page. `name` is the name of the layout's file, by
 /// which errors and saved files are named.
 ///
@@ -75,12 +87,14 @@ pub(super) fn page(
     name: &str,
     title: &str,
     look: &SharedLook,
-    layout: &[u8],
-    plan: Option<&PackedPlan>,
+    content: &PageContent<'_>,
 ) -> Result<Vec<u8>, UserError> {
     let mut shared = json!({ "name": name, "title": title, "look": look });
-    let mut files = packed("layout", name, layout)?;
-    if let Some(plan) = plan {
+    let mut files = packed("layout", name, content.layout)?;
+    if content.has_symbols {
+        files += &script("text/plain", "symbols", &BASE64_STANDARD.encode(SYMBOLS));
+    }
+    if let Some(plan) = content.plan {
         shared["floorPlan"] = described(plan);
         files += &packed("floor-plan", &plan.name, &plan.bytes)?;
     }
@@ -156,11 +170,21 @@ mod tests {
     #[test]
     fn page_holds_engine_and_layout_and_no_script_of_the_names() {
         let title = "</script><script>alert(1)</script>";
-        let made = page("site.json", title, &SharedLook::default(), b"{}", None).unwrap();
+        let content = PageContent {
+            layout: b"{}",
+            plan: None,
+            has_symbols: true,
+        };
+        let made = page("site.json", title, &SharedLook::default(), &content).unwrap();
         let made = String::from_utf8(made).unwrap();
         assert!(!made.contains("alert(1)</script"), "the title is no script");
         assert!(made.contains("connect-src 'none'"));
-        for (id, content) in [("engine", ENGINE), ("layout", &pack(b"{}"))] {
+        let layout = pack(b"{}");
+        for (id, content) in [
+            ("engine", ENGINE),
+            ("layout", &layout),
+            ("symbols", SYMBOLS),
+        ] {
             let start = format!("id=\"{id}\">");
             let (_, rest) = made.split_once(&start).unwrap();
             let (packed, _) = rest.split_once("</script>").unwrap();

@@ -9,7 +9,8 @@ use guideway::scene::{ColorBy, Scene, SceneOptions};
 use serde_json::json;
 
 use super::args::Args;
-use super::page::{SharedLook, page as make_page};
+use super::page::{PageContent, SharedLook, page as make_page};
+use super::symbols;
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::{self, Input, check_output};
 use crate::cli::layout_output::exact_arrow;
@@ -92,7 +93,12 @@ pub(crate) fn write(
     let (name, bytes) = content(inputs, &layout)?;
     let title = page.title;
     let title = title.unwrap_or_else(|| name.split('.').next().unwrap_or_default());
-    let page = make_page(&name, title, look, &bytes, plan.as_ref())?;
+    let content = PageContent {
+        layout: &bytes,
+        plan: plan.as_ref(),
+        has_symbols: symbols::are_needed(&layout, title),
+    };
+    let page = make_page(&name, title, look, &content)?;
     let pack_ms = progress.finish();
     match is_stdout(output) {
         true => print(&page)?,

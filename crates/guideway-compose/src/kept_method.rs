@@ -1,9 +1,9 @@
-//! The method `cpu`, which keeps its last preparation: a page draws many views of one scene.
+//! The method `cpu`, which keeps its last preparation: for many views of one scene.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use guideway::cpu::Cpu;
-use guideway::scene::{
+use guideway_cpu::Cpu;
+use guideway_scene::{
     Budget, Cancel, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report, Scene,
     Strip, Style, View,
 };
@@ -13,7 +13,7 @@ type Slot = Arc<Mutex<Option<(Arc<Scene>, Box<dyn Prepared>)>>>;
 
 /// The method `cpu`; clones share what they prepared.
 #[derive(Clone, Default)]
-pub(crate) struct KeptMethod(Slot);
+pub struct KeptMethod(Slot);
 
 impl Method for KeptMethod {
     fn info(&self) -> MethodInfo {
@@ -94,5 +94,39 @@ impl Drop for Lent {
         let mut slot = self.slot.lock().unwrap_or_else(PoisonError::into_inner);
         let scene = Arc::clone(&self.scene);
         *slot = self.prepared.take().map(|prepared| (scene, prepared));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_scene::SceneOptions;
+
+    use super::*;
+    use crate::test_layouts::straight_ways;
+
+    #[test]
+    fn a_scene_is_prepared_once_and_another_one_anew() {
+        let scene = || {
+            let ends = [[guideway_spline::Point::new(0.0, 0.0); 2]];
+            let layout = straight_ways(ends.into_iter());
+            Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
+        };
+        let method = KeptMethod::default();
+        let kept = || {
+            let slot = method.0.lock().unwrap();
+            let (of, prepared) = slot.as_ref()?;
+            Some((Arc::as_ptr(of), &raw const **prepared as *const ()))
+        };
+        let (first, second) = (scene(), scene());
+        let budget = Budget::default();
+        let lent = method.prepare(Arc::clone(&first), &budget).unwrap();
+        assert!(kept().is_none(), "it is lent");
+        drop(lent);
+        let of_first = kept().unwrap();
+        assert_eq!(of_first.0, Arc::as_ptr(&first));
+        drop(method.clone().prepare(Arc::clone(&first), &budget).unwrap());
+        assert_eq!(kept().unwrap(), of_first);
+        drop(method.prepare(Arc::clone(&second), &budget).unwrap());
+        assert_eq!(kept().unwrap().0, Arc::as_ptr(&second));
     }
 }
