@@ -182,6 +182,64 @@ async function handsAndKeysWork() {
   await page.context().close();
 }
 
+/** A layout whose names have symbols, for which the page has a font of its own. */
+async function symbolsAreThoseOfTheCommand() {
+  const named = join(folder, "symbols.lif.json");
+  writeFileSync(named, readFileSync(site, "utf8").replaceAll("dock-1", "⚡ dock-1"));
+  const [file, expected] = [join(folder, "symbols.html"), join(folder, "symbols.png")];
+  const fixed = ["--size", "640x400", "--method", "cpu", "--shade", "color", "--labels"];
+  guideway("render", named, "-o", expected, "--quiet", ...fixed);
+  guideway("share", named, "-o", file, "--quiet");
+  const look = { width: 640, height: 400, labels: true };
+  for (const url of [pageUrl, pathToFileURL(file).href]) {
+    const page = await open(url);
+    if (url === pageUrl) await load(page, named);
+    await page.waitForFunction(() => guideway.map.drawn > 0);
+    assert.ok(isSame(await pngOf(page, look), readFileSync(expected)), `${url} has other letters`);
+    await page.context().close();
+  }
+  // Letters alone need no such font.
+  guideway("share", site, "-o", file, "--quiet");
+  assert.ok(!readFileSync(file, "utf8").includes('id="symbols"'));
+}
+
+async function floorPlansAreAddedToAnOpenPage() {
+  const [drawing, image] = [join(folder, "added.dxf"), join(folder, "added.png")];
+  guideway("convert", site, drawing, "--quiet");
+  guideway("render", site, "-o", image, "--quiet", "--size", "300x200");
+  const page = await open(pageUrl);
+  await load(page, site);
+  await page.click("[data-tab=view]");
+  assert.ok(await page.isHidden("#floorPlan"));
+  const view = ["--center", "36,8", "--scale", "12.5", "--size", "640x400", "--shade", "color"];
+  const expected = join(folder, "added-expected.png");
+  const look = { width: 640, height: 400, center: [36, 8], pxPerM: 12.5, floorPlan: true };
+  for (const plan of [drawing, `${image}@px-per-m=4,rotate=20,offset=10,-5`]) {
+    const drawn = await page.evaluate(() => guideway.map.drawn);
+    await page.setInputFiles("#plan-file", plan.split("@")[0]);
+    if (plan !== drawing) {
+      for (const [id, value] of Object.entries({ scale: 4, rotate: 20, x: 10, y: -5 })) {
+        await page.fill(`#plan-${id}`, String(value));
+      }
+      await page.click("#plan-place button");
+    }
+    await page.waitForFunction((before) => guideway.map.drawn > before, drawn);
+    assert.ok(await page.isChecked("#floorPlan"));
+    guideway("render", site, "-o", expected, "--quiet", "--floor-plan", plan, ...view);
+    assert.ok(isSame(await pngOf(page, look), readFileSync(expected)), `${plan} differs`);
+  }
+  await page.setInputFiles("#plan-file", { name: "a.png", mimeType: "image/png", buffer: Buffer.from("no") });
+  await page.click("#plan-place button");
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.textContent("#notice-text"), /a\.png/);
+  await page.click("#notice-close");
+  await page.screenshot({ path: join(shots, "added-plan.png") });
+  // Another layout has none.
+  await load(page, site);
+  assert.ok(await page.isHidden("#floorPlan"));
+  await page.context().close();
+}
+
 async function memoryStaysFlatOverPans() {
   const page = await open(pageUrl);
   await load(page, site);
@@ -234,19 +292,19 @@ async function sharedFloorPlanAndSweptAreasAreThoseOfTheCommand() {
     const args = [...view, ...colors, "--floor-plan", plan];
     const [file, expected] = [join(folder, "plan.html"), join(folder, "plan-expected.png")];
     const size = ["--size", "700x400", "--method", "cpu", "--shade", "color"];
+    args.push("--envelope", "2x1.2");
     guideway("render", site, "-o", expected, "--quiet", ...args, ...size);
-    guideway("render", site, "-o", file, "--quiet", ...args, "--envelope", "2x1.2");
+    guideway("render", site, "-o", file, "--quiet", ...args);
     const page = await open(pathToFileURL(file).href);
     await page.waitForFunction(() => guideway.map.drawn > 0);
     const look = await page.evaluate(() => ({ ...guideway.map.look }));
     const off = { arrows: false, nodes: false, stations: false, labels: false, scaleBar: false };
     const fixed = { width: 700, height: 400, center: [36, 8], pxPerM: 12.5, shade: "color" };
     assert.equal(look.envelope, "2x1.2,1");
-    // Edges of swept areas follow from lengths that the system's library computes.
-    const all = { ...look, ...off, ...fixed, envelope: undefined };
+    const all = { ...look, ...off, ...fixed };
     const made = await pngOf(page, all);
     assert.ok(isSame(made, readFileSync(expected)), `${plan}: the picture differs`);
-    const changes = [{ floorPlan: false }, { envelope: look.envelope }, { range: undefined }];
+    const changes = [{ floorPlan: false }, { envelope: undefined }, { range: undefined }];
     for (const change of changes) {
       const other = await pngOf(page, { ...all, ...change });
       assert.ok(!isSame(other, made), `nothing differs with ${Object.keys(change)}`);
@@ -267,6 +325,8 @@ try {
   await picturesAreThoseOfTheCommand();
   await refusedFilesAreRefusedInTheWordsOfTheCommand();
   await handsAndKeysWork();
+  await symbolsAreThoseOfTheCommand();
+  await floorPlansAreAddedToAnOpenPage();
   await memoryStaysFlatOverPans();
   await sharedPageOpensFromDisk();
   await sharedFloorPlanAndSweptAreasAreThoseOfTheCommand();

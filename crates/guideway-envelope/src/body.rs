@@ -55,7 +55,7 @@ impl Body {
     /// Distance of the farthest corner from the reference point, in meters.
     pub fn reach_m(&self) -> f64 {
         let (x, y) = (self.front_m.max(self.rear_m), self.left_m.max(self.right_m));
-        x.hypot(y)
+        Point::new(x, y).norm()
     }
 
     /// Returns `true` if a rotation by 180 degrees maps it to itself.
@@ -89,7 +89,7 @@ impl Body {
             return self.at_heading(low);
         }
         let points = if angle_rad <= MAX_ARC_RAD {
-            let apex_scale = (angle_rad / 2.0).cos().recip();
+            let apex_scale = libm::cos(angle_rad / 2.0).recip();
             let middle = (low + high) / 2.0;
             let of_corner = |corner| {
                 let apex = rotate(corner, middle) * apex_scale;
@@ -98,7 +98,7 @@ impl Body {
             self.corners().map(of_corner).as_flattened().to_vec()
         } else {
             // An octagon around the circle of the farthest corner.
-            let corner = Point::new(self.reach_m() / FRAC_PI_8.cos(), 0.0);
+            let corner = Point::new(self.reach_m() / libm::cos(FRAC_PI_8), 0.0);
             let directions = (0..8).map(|i| f64::from(2 * i + 1) * FRAC_PI_8);
             directions
                 .map(|direction| rotate(corner, direction))
@@ -111,9 +111,9 @@ impl Body {
     /// the farthest corner.
     pub(crate) fn turning_error_m(&self, angle_rad: f64) -> f64 {
         if angle_rad <= MAX_ARC_RAD {
-            2.0 * self.reach_m() * (angle_rad / 2.0).sin()
+            2.0 * self.reach_m() * libm::sin(angle_rad / 2.0)
         } else {
-            self.reach_m() * (1.0 + FRAC_PI_8.cos().recip())
+            self.reach_m() * (1.0 + libm::cos(FRAC_PI_8).recip())
         }
     }
 }
@@ -123,6 +123,6 @@ impl Body {
 const MAX_ARC_RAD: f64 = FRAC_PI_2;
 
 fn rotate(p: Point<f64>, angle_rad: f64) -> Point<f64> {
-    let (sin, cos) = angle_rad.sin_cos();
+    let (sin, cos) = libm::sincos(angle_rad);
     Point::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos)
 }

@@ -100,14 +100,14 @@ impl Directions {
         let legs = points.windows(2).map(|ends| ends[1] - ends[0]);
         let mut legs = legs.filter(|leg| leg.norm() > noise_m);
         let base = legs.next()?;
-        let first = base.y.atan2(base.x);
+        let first = libm::atan2(base.y, base.x);
         let mut all = Self {
             first,
             last: first,
             range: [first; 2],
         };
         for leg in legs {
-            let angle = first + base.cross(leg).atan2(base.dot(leg));
+            let angle = first + libm::atan2(base.cross(leg), base.dot(leg));
             let [low, high] = all.range;
             all.range = [low.min(angle), high.max(angle)];
             all.last = angle;

@@ -52,9 +52,27 @@ impl<T: Real> Point<T> {
         self.x * other.y - self.y * other.x
     }
 
-    /// Euclidean length of the vector.
+    /// Euclidean length of the vector, with the same bits on every system: the `hypot` of each
+    /// system's library rounds in its own way.
     pub fn norm(self) -> T {
-        self.x.hypot(self.y)
+        let square = self.dot(self);
+        // Below this, the squares lose digits.
+        let least = T::min_positive_value() / T::epsilon();
+        match square >= least && square.is_finite() {
+            true => square.sqrt(),
+            false => self.scaled_norm(),
+        }
+    }
+
+    /// The length of a vector whose squares leave the range of numbers.
+    #[cold]
+    fn scaled_norm(self) -> T {
+        let largest = self.x.abs().max(self.y.abs());
+        if self.x.is_zero() && self.y.is_zero() || largest.is_infinite() {
+            return largest;
+        }
+        let scaled = Self::new(self.x / largest, self.y / largest);
+        largest * scaled.dot(scaled).sqrt()
     }
 
     /// Distance to another point.
@@ -122,6 +140,51 @@ impl<T: Real> Neg for Point<T> {
         Self {
             x: -self.x,
             y: -self.y,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norm_is_the_nearest_length_or_its_neighbor() {
+        for exponent in [-300, -160, -20, 0, 20, 160, 300] {
+            let scale = 10_f64.powi(exponent);
+            for (x, y) in [(3.0, 4.0), (-0.1, 0.7), (1.0, 1e-9), (0.0, -2.5)] {
+                let (x, y) = (x * scale, y * scale);
+                let expected = x.hypot(y);
+                let error = (Point::new(x, y).norm() - expected).abs();
+                assert!(error <= 2.0 * f64::EPSILON * expected, "({x}, {y})");
+            }
+        }
+        assert_eq!(Point::new(3e30_f32, -4e30).norm(), 5e30);
+        assert_eq!(
+            Point::new(f64::from_bits(3), f64::from_bits(4)).norm(),
+            f64::from_bits(5)
+        );
+    }
+
+    #[test]
+    fn norm_of_special_numbers_is_that_of_hypot() {
+        let numbers = [
+            0.0,
+            -0.0,
+            1.0,
+            f64::MAX,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NAN,
+        ];
+        for x in numbers {
+            for y in numbers {
+                let (norm, expected) = (Point::new(x, y).norm(), x.hypot(y));
+                assert!(
+                    norm == expected || norm.is_nan() && expected.is_nan(),
+                    "({x}, {y})"
+                );
+            }
         }
     }
 }

@@ -243,11 +243,11 @@ impl Cone {
             return true;
         }
         let ahead = *self.ahead.get_or_insert(way);
-        let angle = ahead.cross(way).atan2(ahead.dot(way));
+        let angle = libm::atan2(ahead.cross(way), ahead.dot(way));
         if !(self.least..=self.most).contains(&angle) {
             return false;
         }
-        let spread = (tolerance / distance).asin();
+        let spread = libm::asin(tolerance / distance);
         self.least = self.least.max(angle - spread);
         self.most = self.most.min(angle + spread);
         true
