@@ -104,10 +104,20 @@ fn repaint_handle(window: &Arc<OnceLock<Context>>) -> RepaintHandle {
     })
 }
 
-/// Opens a device on which render methods can draw too.
+/// Opens a device on which render methods can draw too. Windows has several ways to one adapter,
+/// some of which may be broken; elsewhere there is one, and trying it would take time.
 fn wgpu_options(services: Arc<dyn AppServices>) -> WgpuConfiguration {
     let mut options = WgpuConfiguration::default();
     if let WgpuSetup::CreateNew(setup) = &mut options.wgpu_setup {
+        if cfg!(windows) {
+            let services = Arc::clone(&services);
+            setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
+                let can_present = |adapter: &eframe::wgpu::Adapter| {
+                    surface.is_none_or(|surface| adapter.is_surface_supported(surface))
+                };
+                services.choose_adapter(adapters, &can_present)
+            }));
+        }
         let plain = Arc::clone(&setup.device_descriptor);
         setup.device_descriptor = Arc::new(move |adapter| {
             let shared = services.device_descriptor(adapter);

@@ -157,6 +157,15 @@ impl AppServices for FileServices {
     }
 
     #[cfg(feature = "gpu")]
+    fn choose_adapter(
+        &self,
+        adapters: &[wgpu::Adapter],
+        can_present: &dyn Fn(&wgpu::Adapter) -> bool,
+    ) -> Result<wgpu::Adapter, String> {
+        guideway::Gpu::choose(adapters, can_present).map_err(|error| error.to_string())
+    }
+
+    #[cfg(feature = "gpu")]
     fn device_descriptor(
         &self,
         adapter: &wgpu::Adapter,

@@ -1,12 +1,12 @@
-//! Selects and opens a graphics adapter.
+//! The graphics adapters of this computer, their rank, and how one is opened.
 
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use wgpu::{
-    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, Queue,
+    Adapter, AdapterInfo, Backend, Backends, Device, DeviceDescriptor, DeviceType, Features,
+    Instance, Queue,
 };
 
-use super::error::DeviceError;
 use super::options::GpuOptions;
 
 /// All devices of the process share one instance and are opened one after the other: on an H200,
@@ -18,33 +18,29 @@ static INSTANCE: LazyLock<Mutex<Instance>> = LazyLock::new(|| {
     }))
 });
 
-/// Opens the first adapter that opens, hardware before software.
-pub(super) fn open(options: GpuOptions) -> Result<(Adapter, Device, Queue), DeviceError> {
+/// Calls a function with the adapters of this computer, of which no other is opened meanwhile.
+pub(super) fn with_adapters<R>(call: impl FnOnce(Vec<Adapter>) -> R) -> R {
     let instance = INSTANCE.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut adapters = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY));
-    adapters.sort_by_key(|adapter| preference(adapter.get_info().device_type));
-    let mut reasons = Vec::new();
-    for adapter in adapters {
-        match pollster::block_on(adapter.request_device(&descriptor_for(&adapter, options))) {
-            Ok((device, queue)) => return Ok((adapter, device, queue)),
-            Err(error) => reasons.push(format!("{}: {error}", adapter.get_info().name)),
-        }
-    }
-    if reasons.is_empty() {
-        Err(DeviceError::NoAdapter)
-    } else {
-        let reasons = reasons.join("; ");
-        Err(DeviceError::NotOpened { reasons })
-    }
+    call(pollster::block_on(
+        instance.enumerate_adapters(Backends::PRIMARY),
+    ))
+}
+
+/// Opens an adapter.
+///
+/// # Errors
+/// The message of the driver.
+pub(super) fn open(adapter: &Adapter, options: GpuOptions) -> Result<(Device, Queue), String> {
+    let device = pollster::block_on(adapter.request_device(&descriptor_for(adapter, options)));
+    device.map_err(|error| error.to_string())
 }
 
 /// The adapters of this computer with backend, kind and driver, hardware first. They may fail to
 /// open.
 pub fn adapters() -> Vec<String> {
-    let instance = INSTANCE.lock().unwrap_or_else(PoisonError::into_inner);
-    let found = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY));
-    let mut found: Vec<AdapterInfo> = found.iter().map(Adapter::get_info).collect();
-    found.sort_by_key(|info| preference(info.device_type));
+    let mut found: Vec<AdapterInfo> =
+        with_adapters(|found| found.iter().map(Adapter::get_info).collect());
+    found.sort_by_key(preference);
     let shown = found.iter().map(|info| {
         let kind = match info.device_type {
             DeviceType::DiscreteGpu => "graphics card",
@@ -68,14 +64,17 @@ pub(super) fn driver(info: &AdapterInfo) -> String {
     format!("{name} {}", info.driver_info).trim().to_owned()
 }
 
-fn preference(kind: DeviceType) -> u8 {
-    match kind {
+/// Rank of an adapter, the best first: hardware before software; then Vulkan and Metal, for which
+/// the shaders are tuned, before DirectX 12.
+pub(super) fn preference(info: &AdapterInfo) -> (u8, bool) {
+    let kind = match info.device_type {
         DeviceType::DiscreteGpu => 0,
         DeviceType::IntegratedGpu => 1,
         DeviceType::VirtualGpu => 2,
         DeviceType::Other => 3,
         DeviceType::Cpu => 4,
-    }
+    };
+    (kind, info.backend == Backend::Dx12)
 }
 
 /// The limits and features of an adapter that methods use, below artificial limits.

@@ -28,23 +28,6 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the best adapter of this computer, hardware before software.
-    ///
-    /// # Errors
-    /// [`DeviceError::NoAdapter`] or [`DeviceError::NotOpened`].
-    pub fn new() -> Result<Arc<Self>, DeviceError> {
-        Self::with_options(GpuOptions::default())
-    }
-
-    /// Opens the best adapter with artificial limits.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn with_options(options: GpuOptions) -> Result<Arc<Self>, DeviceError> {
-        let (adapter, device, queue) = adapter::open(options)?;
-        Ok(Self::of(&adapter, device, queue, options))
-    }
-
     /// Uses a device that the caller opened and draws on too. Its limits and features should be
     /// those of [`Self::descriptor`].
     pub fn shared(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Arc<Self> {
@@ -56,7 +39,8 @@ impl Gpu {
         adapter::descriptor_for(adapter, GpuOptions::default())
     }
 
-    fn of(
+    /// An open device with artificial limits.
+    pub(super) fn of(
         adapter: &wgpu::Adapter,
         device: wgpu::Device,
         queue: wgpu::Queue,

@@ -2,7 +2,8 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `adapter`, `options` | selects and opens the adapter, with artificial limits for tests |
+//! | `adapter`, `options` | the adapters and their rank; opens one, with artificial limits for tests |
+//! | `choice` | the best adapter that passes a trial |
 //! | `gpu` | [`Gpu`]: the open device, its limits and its error scopes |
 //! | `kernel` | [`Source`], [`Kernel`], [`Bindings`]: compute pipelines |
 //! | `memory` | [`Memory`], [`DeviceBuffer`]: buffers charged to the memory budget of a method |
@@ -11,6 +12,7 @@
 //! | `error` | [`DeviceError`] |
 
 mod adapter;
+mod choice;
 mod error;
 mod gpu;
 mod kernel;
@@ -41,5 +43,12 @@ mod tests;
 /// Opens an adapter as a caller does that shares its device.
 #[cfg(test)]
 pub(crate) fn open_for_tests() -> Result<(wgpu::Adapter, wgpu::Device, wgpu::Queue), DeviceError> {
-    adapter::open(GpuOptions::default())
+    adapter::with_adapters(|mut adapters| {
+        adapters.sort_by_key(|adapter| adapter::preference(&adapter.get_info()));
+        let adapter = adapters.into_iter().next().ok_or(DeviceError::NoAdapter)?;
+        match adapter::open(&adapter, GpuOptions::default()) {
+            Ok((device, queue)) => Ok((adapter, device, queue)),
+            Err(reasons) => Err(DeviceError::NotOpened { reasons }),
+        }
+    })
 }

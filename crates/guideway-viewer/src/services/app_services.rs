@@ -153,6 +153,21 @@ pub trait AppServices: Send + Sync {
     /// When the method is unknown or does not run on this computer.
     fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError>;
 
+    /// The adapter that draws the window, of those that `can_present` accepts.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn choose_adapter(
+        &self,
+        adapters: &[wgpu::Adapter],
+        can_present: &dyn Fn(&wgpu::Adapter) -> bool,
+    ) -> Result<wgpu::Adapter, String> {
+        let first = adapters.iter().find(|adapter| can_present(adapter));
+        first
+            .cloned()
+            .ok_or_else(|| "no graphics adapter can draw a window".to_owned())
+    }
+
     /// The limits and features that a device of this adapter needs, so that render methods can
     /// draw on the device of the window; `None` if none can.
     fn device_descriptor(
