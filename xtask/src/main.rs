@@ -6,6 +6,7 @@ mod debian_rust;
 mod pack;
 mod prerequisites;
 mod published;
+mod semver;
 mod step;
 mod web;
 mod windows;
@@ -39,6 +40,7 @@ cargo xtask dist [--windows]
                         packages in target/dist/packages: .deb and .tar.xz of the programs and of
                         the C library, checksums, SBOM; .zip and installer for Windows beside them
 cargo xtask header      writes the header of the C interface
+cargo xtask semver      the interfaces of the crates, compared with those of the last tag
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
 cargo xtask web [--test | --check]
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         ("dist", []) => pack::run(),
         ("dist", [arg]) if arg == "--windows" => windows::dist(),
         ("header", []) => header(),
+        ("semver", []) => semver::check(),
         ("web", rest) => web::run(rest),
         ("windows", rest) => windows::run(rest),
         ("style", []) => style(""),

@@ -43,6 +43,11 @@ pub(crate) const CARGO_FUZZ: Tool = Tool {
     version: "0.13.1",
     features: &[],
 };
+pub(crate) const SEMVER_CHECKS: Tool = Tool {
+    name: "cargo-semver-checks",
+    version: "0.51.0",
+    features: &[],
+};
 pub(crate) const MDBOOK: Tool = Tool {
     name: "mdbook",
     version: "0.5.4",
