@@ -33,6 +33,9 @@ impl Binaries {
     }
 }
 
+/// The profile of the programs that users get.
+pub const PROFILE: &str = "dist";
+
 /// Builds command and window, optimized and stripped, with all methods.
 ///
 /// # Errors
@@ -62,7 +65,7 @@ fn build(top: &Path, task: &[&str]) -> Result<PathBuf> {
     let target = top.join("target").join("dist");
     let built = Command::new(env!("CARGO"))
         .args(task)
-        .args(["--release", "--locked"])
+        .args(["--profile", PROFILE, "--locked"])
         .current_dir(top)
         .env("CARGO_TARGET_DIR", &target)
         .env("RUSTFLAGS", remapped_paths(top)?)
@@ -71,7 +74,7 @@ fn build(top: &Path, task: &[&str]) -> Result<PathBuf> {
     if !built.success() {
         bail!("the release build failed: {built}");
     }
-    Ok(target.join("release"))
+    Ok(target.join(PROFILE))
 }
 
 /// Compiler flags by which messages of panics name files without the folders of this machine.

@@ -1,7 +1,7 @@
 //! Cross-compiles command and window by MinGW-w64, with a standard library built for it.
 
 use anyhow::{Result, bail};
-use xtask::dist::{Binaries, WINDOWS};
+use xtask::dist::{Binaries, PROFILE, WINDOWS};
 
 use crate::debian_rust::DebianRust;
 use crate::prerequisites::apt_install;
@@ -25,7 +25,7 @@ pub(super) enum Profile {
 impl Profile {
     fn name(self) -> &'static str {
         match self {
-            Self::Release => "release",
+            Self::Release => PROFILE,
             Self::Quick => "quick",
         }
     }
