@@ -20,6 +20,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-document", SCENE),
     ("guideway-tiles", SCENE),
     (
+        "guideway-png",
+        &["guideway-spline", "guideway-formats", "guideway-scene"],
+    ),
+    (
         "guideway-grid",
         &[
             "guideway-spline",
@@ -60,6 +64,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-scene",
             "guideway-cpu",
             "guideway-document",
+            "guideway-png",
         ],
     ),
     (
@@ -125,7 +130,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("indicatif", "guideway"),
     (
         "png",
-        "guideway-compose guideway-formats guideway-bench guideway-reproduce guideway-tests \
+        "guideway-png guideway-formats guideway-bench guideway-reproduce guideway-tests \
          guideway-tiles xtask",
     ),
     ("wgpu", "guideway-gpu guideway-grid guideway-tree"),

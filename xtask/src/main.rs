@@ -231,7 +231,17 @@ fn single_formats() -> Result<()> {
     for format in all.split('"').skip(1).step_by(2) {
         alone("guideway-formats", format)?;
     }
-    alone("guideway", "lif")
+    alone("guideway", "lif")?;
+    // One format is enough to open, check and draw.
+    let example = ["check", "--quiet", "--example", "draw_lif"];
+    let features = [
+        "--package",
+        "guideway",
+        "--no-default-features",
+        "--features",
+        "lif",
+    ];
+    cargo(&example).args(features).run()
 }
 
 /// Writes the header of the C interface.

@@ -57,7 +57,6 @@ mod overlay;
 mod page;
 mod pdf;
 mod picture;
-mod png_writer;
 mod render;
 #[cfg(test)]
 mod test_layouts;
@@ -76,9 +75,9 @@ pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, 
 pub use guideway_document::text_format;
 pub use guideway_formats::lock_regular_file;
 pub use guideway_formats::raster::ImagePlacement;
+pub use guideway_png::{PngHeader, save_png, save_png_by, world_file, write_png_by};
 pub use kept_method::KeptMethod;
 pub use picture::{LevelPart, Picture, Viewport};
-pub use png_writer::{PngHeader, save_png, save_png_by, world_file, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};
 #[cfg(not(target_arch = "wasm32"))]
 pub use text::needs_symbols;

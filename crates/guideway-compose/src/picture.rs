@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use guideway_document::Index;
 use guideway_document::decorations::DecorationStyle;
+use guideway_png::PngHeader;
 use guideway_scene::{Budget, DrawList, FrameSize, RenderError, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
 use crate::decorations::{Decorations, PlacedCorners, PlacedDecorations, place, place_corners};
-use crate::png_writer::PngHeader;
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
 /// those that differ.

@@ -5,70 +5,68 @@
 //! | a byte order mark | the one that it marks |
 //! | every other one of the first bytes is zero | UTF-16 |
 //! | three of each four first bytes are zero | UTF-32 |
-//! | `<?xml ... encoding="..."?>` | the declared one |
+//! | `<?xml ... encoding="..."?>` | the declared one, with the feature `xml` |
 //! | any others | unchanged: UTF-8, or a format that is not text |
 
 use std::borrow::Cow;
 
-use encoding_rs::{DecoderResult, Encoding, UTF_8, UTF_16BE, UTF_16LE};
-use guideway_layout::Place;
-
 use crate::Problem;
-use crate::dos_page::DosPage;
-use crate::text::printable;
-
-/// Longest XML declaration that is searched for an encoding, in bytes.
-const MAX_DECLARATION: usize = 1024;
+#[cfg(feature = "xml")]
+use crate::xml::from_declared;
 
 /// Returns the bytes of a text in UTF-8; other bytes unchanged.
 ///
 /// # Errors
 /// When the declared encoding is not known, or when the bytes are not in it.
 pub(crate) fn to_utf8(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Problem> {
-    let (encoding, start) = match bytes {
-        [0xFF, 0xFE, 0, 0, rest @ ..] => return owned(utf_32(rest, 4, u32::from_le_bytes)),
-        [0, 0, 0xFE, 0xFF, rest @ ..] => return owned(utf_32(rest, 4, u32::from_be_bytes)),
+    let text = match bytes {
+        [0xFF, 0xFE, 0, 0, rest @ ..] => utf_32(rest, 4, u32::from_le_bytes),
+        [0, 0, 0xFE, 0xFF, rest @ ..] => utf_32(rest, 4, u32::from_be_bytes),
         [a, 0, 0, 0, b, 0, 0, 0, ..] if is_text(*a) && is_text(*b) => {
-            return owned(utf_32(bytes, 0, u32::from_le_bytes));
+            utf_32(bytes, 0, u32::from_le_bytes)
         }
         [0, 0, 0, a, 0, 0, 0, b, ..] if is_text(*a) && is_text(*b) => {
-            return owned(utf_32(bytes, 0, u32::from_be_bytes));
+            utf_32(bytes, 0, u32::from_be_bytes)
         }
-        [0xFF, 0xFE, ..] => (UTF_16LE, 2),
-        [0xFE, 0xFF, ..] => (UTF_16BE, 2),
-        [a, 0, b, 0, ..] if is_text(*a) && is_text(*b) => (UTF_16LE, 0),
-        [0, a, 0, b, ..] if is_text(*a) && is_text(*b) => (UTF_16BE, 0),
-        _ => match declared(bytes) {
-            // The bytes of ASCII are those of UTF-8; a label that the text outgrew.
-            Some(label) if is_ascii_label(label) && str::from_utf8(bytes).is_ok() => (UTF_8, 0),
-            Some(label) => match Encoding::for_label_no_replacement(label) {
-                Some(encoding) => (encoding, 0),
-                None => {
-                    let page = DosPage::of_label(label);
-                    let page = page.ok_or_else(|| unknown(&String::from_utf8_lossy(label)))?;
-                    return owned(Ok(page.decode(bytes)));
-                }
-            },
-            None => (UTF_8, 0),
-        },
+        [0xFF, 0xFE, rest @ ..] => utf_16(rest, 2, UTF_16LE),
+        [0xFE, 0xFF, rest @ ..] => utf_16(rest, 2, UTF_16BE),
+        [a, 0, b, 0, ..] if is_text(*a) && is_text(*b) => utf_16(bytes, 0, UTF_16LE),
+        [0, a, 0, b, ..] if is_text(*a) && is_text(*b) => utf_16(bytes, 0, UTF_16BE),
+        #[cfg(feature = "xml")]
+        _ => return from_declared(bytes),
+        #[cfg(not(feature = "xml"))]
+        _ => return Ok(Cow::Borrowed(bytes)),
     };
-    // A declaration of UTF-16 that can be read byte by byte is wrong.
-    let is_wide = bytes
-        .get(start..start + 2)
-        .is_some_and(|pair| pair.contains(&0));
-    if encoding == UTF_8 || (start == 0 && !is_wide && encoding.output_encoding() == UTF_8) {
-        return Ok(Cow::Borrowed(bytes));
-    }
-    owned(decode(encoding, &bytes[start..], start))
-}
-
-fn owned(text: Result<String, Problem>) -> Result<Cow<'static, [u8]>, Problem> {
     text.map(|text| Cow::Owned(text.into_bytes()))
 }
 
-fn is_ascii_label(label: &[u8]) -> bool {
-    let label = label.to_ascii_lowercase();
-    label.ends_with(b"ascii") || label.starts_with(b"ansi_x3.4")
+/// The name of an encoding, and the number of a pair of its bytes.
+type Utf16 = (&'static str, fn([u8; 2]) -> u16);
+
+const UTF_16LE: Utf16 = ("UTF-16LE", u16::from_le_bytes);
+const UTF_16BE: Utf16 = ("UTF-16BE", u16::from_be_bytes);
+
+/// Decodes UTF-16; `start` is the place of the bytes in the file.
+fn utf_16(bytes: &[u8], start: usize, (encoding, number): Utf16) -> Result<String, Problem> {
+    let mut text = String::new();
+    // Two bytes become at most three.
+    text.try_reserve(bytes.len() / 2 * 3)
+        .map_err(|_| Problem::Io(std::io::ErrorKind::OutOfMemory.into()))?;
+    let wrong = |index: usize| Problem::WrongEncoding {
+        encoding,
+        at: (start + 2 * index) as u64,
+    };
+    let (pairs, rest) = bytes.as_chunks::<2>();
+    let mut index = 0;
+    for letter in char::decode_utf16(pairs.iter().map(|&pair| number(pair))) {
+        let letter = letter.map_err(|_| wrong(index))?;
+        text.push(letter);
+        index += letter.len_utf16();
+    }
+    match rest {
+        [] => Ok(text),
+        _ => Err(wrong(pairs.len())),
+    }
 }
 
 /// Decodes numbers of characters; `start` is the place of the bytes in the file.
@@ -96,46 +94,6 @@ fn not_utf_32(at: usize) -> Problem {
 
 fn is_text(byte: u8) -> bool {
     byte.is_ascii_graphic() || byte.is_ascii_whitespace()
-}
-
-/// Decodes bytes of an encoding; `start` is their place in the file.
-fn decode(encoding: &'static Encoding, bytes: &[u8], start: usize) -> Result<String, Problem> {
-    let mut decoder = encoding.new_decoder_without_bom_handling();
-    let length = decoder.max_utf8_buffer_length_without_replacement(bytes.len());
-    let mut text = String::new();
-    text.try_reserve_exact(length.unwrap_or(usize::MAX))
-        .map_err(|_| Problem::Io(std::io::ErrorKind::OutOfMemory.into()))?;
-    match decoder.decode_to_string_without_replacement(bytes, &mut text, true) {
-        (DecoderResult::InputEmpty, _) => Ok(text),
-        (_, read) => Err(Problem::WrongEncoding {
-            encoding: encoding.name(),
-            at: (start + read) as u64,
-        }),
-    }
-}
-
-/// Returns the encoding that an XML declaration states.
-fn declared(bytes: &[u8]) -> Option<&[u8]> {
-    let text = bytes.trim_ascii_start().strip_prefix(b"<?xml")?;
-    let text = &text[..text.len().min(MAX_DECLARATION)];
-    let end = text.windows(2).position(|pair| pair == b"?>")?;
-    let key = b"encoding";
-    let at = text[..end]
-        .windows(key.len())
-        .position(|word| word == key)?;
-    let rest = text[at + key.len()..end].trim_ascii_start();
-    let rest = rest.strip_prefix(b"=")?.trim_ascii_start();
-    let (quote, rest) = rest.split_first()?;
-    let length = rest.iter().position(|byte| byte == quote)?;
-    Some(&rest[..length])
-}
-
-fn unknown(label: &str) -> Problem {
-    Problem::Unsupported {
-        place: Place::element("the head of the file"),
-        what: format!("the encoding `{}`", printable(label)),
-        remedy: "Save the file as UTF-8".into(),
-    }
 }
 
 #[cfg(test)]
@@ -219,7 +177,7 @@ mod tests {
         assert!(error.to_string().contains("`cp037`"), "{error}");
         let error = to_utf8(b"\xFF\xFE\x3C\x00\x00\xD8").unwrap_err();
         assert!(
-            error.to_string().contains("not UTF-16LE at byte 6"),
+            error.to_string().contains("not UTF-16LE at byte 4"),
             "{error}"
         );
         for (bytes, at) in [

@@ -14,7 +14,7 @@
 //! | write | layout | text, losses | `write*` per format; `clamped`, `driven`, `trajectory_writer`, `*_nodes`, `*_losses` |
 //! | save | bytes | a file that replaces its target | `output` |
 //!
-//! Each format has a feature, which is on by default.
+//! Each format has a feature, which is on by default, and so have floor plans.
 
 #![cfg_attr(
     not(feature = "all"),
@@ -25,6 +25,7 @@
 pub mod arrow;
 mod builder;
 mod clamped;
+#[cfg(any(feature = "dxf", feature = "xml"))]
 mod dos_page;
 mod driven;
 #[cfg(feature = "dxf")]
@@ -54,6 +55,7 @@ pub mod opentcs;
 mod other_format;
 mod output;
 mod pair_reader;
+#[cfg(feature = "floor-plans")]
 pub mod raster;
 mod read;
 #[cfg(feature = "rmf")]
@@ -76,8 +78,10 @@ pub mod vda5050;
 mod wgs84;
 mod write_error;
 mod xml;
+#[cfg(feature = "xml")]
 mod xml_builder;
 mod xml_text;
+#[cfg(feature = "yaml")]
 mod yaml;
 
 pub use error::{LIMIT_OPTIONS, Problem, ReadError};

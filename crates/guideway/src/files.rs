@@ -1,16 +1,13 @@
-//! The shortest calls: open, check, render and save a layout with default options.
+//! The shortest calls: open, check and save a layout with default options.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use guideway_compose::{ComposeError, NoProgress, Picture, Rendered, VectorFormat};
 use guideway_formats::{
     Losses, ReadError, ReadOptions, Target, WriteError, WriteProblem, read_file,
 };
 use guideway_layout::{CheckOptions, Diagnostics, Layout, UserError, shown_path};
 use guideway_network::AnalyzeOptions;
-use guideway_scene::{FrameSize, Scene, SceneOptions};
 
 /// Reads a layout file with the default limits. The content decides the format.
 ///
@@ -29,27 +26,6 @@ pub fn check(layout: &Layout) -> Diagnostics {
     ));
     found.append(layout.diagnostics.clone());
     found
-}
-
-/// Draws a layout on 1920 x 1080 pixels and saves the picture, as SVG or PDF if the extension
-/// says so, else as PNG. [`Picture`] has the options.
-///
-/// # Errors
-/// When the file cannot be written.
-pub fn render(layout: Layout, path: impl AsRef<Path>) -> Result<Rendered, ComposeError> {
-    let path = path.as_ref();
-    // A scene without options takes every layout.
-    let scene = Scene::new(Arc::new(layout), &SceneOptions::default()).expect("no options");
-    let picture = Picture::new(Arc::new(scene), FrameSize::new(1920, 1080)?);
-    let is_named = |name| {
-        path.extension()
-            .is_some_and(|own| own.eq_ignore_ascii_case(name))
-    };
-    match is_named("pdf") {
-        true => picture.save_vector(VectorFormat::Pdf, path),
-        false if is_named("svg") => picture.save_vector(VectorFormat::Svg, path),
-        false => picture.save_png(&guideway_cpu::Cpu, path, &NoProgress),
-    }
 }
 
 /// Saves a layout in the format that the extension names: see [`Target::for_file`]. The file

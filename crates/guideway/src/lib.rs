@@ -11,11 +11,11 @@
 //! | [`layout`] | the model, its checks, merging of files |
 //! | [`spline`] | the mathematics of curves |
 //! | [`network`] | networks from drawings, their faults, and routes |
-//! | [`envelope`] | the areas that vehicles sweep, and their distances |
+//! | `envelope` | the areas that vehicles sweep, and their distances, with the feature `envelope` |
 //! | [`scene`] | colors, widths and draw order; edits; the contract of all render methods |
-//! | [`document`] | a layout under edit: selection, search, undo, journal |
+//! | `document` | a layout under edit: selection, search, undo, journal, with the feature `document` |
 //! | `script` | edits by a list of steps in JSON, with the feature `script` |
-//! | [`compose`] | the finished picture as PNG or SVG, with backdrop, labels, legend and title |
+//! | `compose` | the finished picture as PNG, SVG or PDF, with backdrop, labels, legend and title, with the feature `compose` |
 //! | `json` | facts and routes for programs in other languages, with the feature `json` |
 //! | [`methods`], [`method`] | the render methods of this build |
 //!
@@ -185,12 +185,17 @@ pub mod json;
 mod methods;
 #[cfg(feature = "cli")]
 mod out_of_memory;
+#[cfg(feature = "compose")]
+mod render;
 #[cfg(feature = "script")]
 pub mod script;
 
+#[cfg(feature = "compose")]
 pub use guideway_compose as compose;
 pub use guideway_cpu as cpu;
+#[cfg(feature = "document")]
 pub use guideway_document as document;
+#[cfg(feature = "envelope")]
 pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
 #[cfg(feature = "arrow")]
@@ -204,14 +209,16 @@ pub use guideway_spline as spline;
 #[cfg(feature = "tiles")]
 pub use guideway_tiles as tiles;
 
-pub use files::{SaveAsError, check, open, render, save, write};
-pub use guideway_compose::{save_png, save_png_by, write_png_by};
+pub use files::{SaveAsError, check, open, save, write};
 pub use guideway_formats::{
     NewFile, SaveError, remove_unfinished, replace_file, try_remove_unfinished,
 };
+pub use guideway_png::{PngHeader, save_png, save_png_by, world_file, write_png_by};
 #[cfg(feature = "gpu")]
 pub use methods::share_device;
 pub use methods::{
     AUTO, Available, MethodError, MethodOption, device_limits, graphics_adapters, live_method,
     method, method_names, methods,
 };
+#[cfg(feature = "compose")]
+pub use render::render;

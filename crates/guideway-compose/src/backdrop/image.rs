@@ -7,6 +7,7 @@ use std::path::Path;
 use guideway_formats::ReadOptions;
 use guideway_formats::raster::{self, ImagePlacement, Raster};
 use guideway_formats::ros_map::OccupancyGrid;
+use guideway_png::encode_png;
 use guideway_scene::{Frame, Rgba, Strip, View};
 use guideway_spline::{Affine, Bounds, Point};
 
@@ -15,7 +16,6 @@ use super::mip_levels::{MipLevel, levels, unpremultiply};
 use crate::ImageError;
 use crate::blend::over;
 use crate::page::{Page, PageImage};
-use crate::png_writer::encode_png;
 
 /// An image that lies on the floor.
 pub struct Image {

@@ -10,11 +10,16 @@
 //! | `grid` | map file, image | [`OccupancyGrid`] |
 //! | `outline` | occupancy grid | a layout of wall lines |
 
+#[cfg(feature = "floor-plans")]
 mod grid;
+#[cfg(feature = "floor-plans")]
 mod map_file;
+#[cfg(feature = "floor-plans")]
 mod outline;
 mod sniff;
 
+#[cfg(feature = "floor-plans")]
 pub use grid::{OCCUPIED, OccupancyGrid, UNKNOWN, read_file};
+#[cfg(feature = "floor-plans")]
 pub use map_file::{MapFile, MapMode};
 pub use sniff::is_ros_map;

@@ -11,7 +11,9 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::limits::MAX_ATTRIBUTES;
+/// Attributes per element. The parser compares each one with every other; no format needs half as
+/// many.
+pub(super) const MAX_ATTRIBUTES: u64 = 256;
 
 /// Public identifiers of the definitions of SVG 1.0 and 1.1 begin with this text.
 const SVG_DEFINITION: &[u8] = b"-//W3C//DTD SVG 1.";

@@ -5,13 +5,10 @@
 
 use guideway_layout::Limits;
 
+use super::doctype::MAX_ATTRIBUTES;
 use super::problem::unterminated;
 use crate::Problem;
 use crate::text::ElementCounter;
-
-/// Attributes per element. The parser compares each one with every other; no format needs half as
-/// many.
-pub(super) const MAX_ATTRIBUTES: u64 = 256;
 
 /// Namespace declarations per file. The parser copies them for every level; drawing programs write
 /// some on a few elements.

@@ -78,10 +78,7 @@ pub fn write_png_by<T, E>(
 ///
 /// # Errors
 /// When there are fewer pixels than the size has.
-pub(crate) fn encode_png(
-    size: [u32; 2],
-    pixels: impl Iterator<Item = [u8; 4]>,
-) -> io::Result<Vec<u8>> {
+pub fn encode_png(size: [u32; 2], pixels: impl Iterator<Item = [u8; 4]>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut writer = encoder(&mut bytes, size).write_header().map_err(as_io)?;
     let mut stream = writer.stream_writer_with_size(1 << 16).map_err(as_io)?;
@@ -123,7 +120,7 @@ pub struct PngHeader {
 impl PngHeader {
     /// The header of a picture: the program, its title, and its size on paper, at which a point of
     /// its texts is as large as on a screen of 96 dpi.
-    pub(crate) fn new(title: Option<&str>, px_per_point: f64) -> Self {
+    pub fn new(title: Option<&str>, px_per_point: f64) -> Self {
         const POINTS_PER_M: f64 = 96.0 / 0.0254;
         let program = format!("Guideway {}", env!("CARGO_PKG_VERSION"));
         let mut texts = vec![("Software", program)];
@@ -135,7 +132,7 @@ impl PngHeader {
     }
 
     /// Adds where the picture lies: bounds in meters, and scale.
-    pub(crate) fn push_place(&mut self, view: &View) {
+    pub fn push_place(&mut self, view: &View) {
         let Bounds { min, max } = view.world_bounds();
         let bounds = format!("{} {} {} {}", min.x, min.y, max.x, max.y);
         self.texts.push(("guideway:bounds_m", bounds));
