@@ -108,7 +108,7 @@ mod tests {
     fn a_scene_is_prepared_once_and_another_one_anew() {
         let scene = || {
             let ends = [[guideway_spline::Point::new(0.0, 0.0); 2]];
-            let layout = straight_ways(ends.into_iter());
+            let layout = straight_ways(ends);
             Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
         };
         let method = KeptMethod::default();
