@@ -47,7 +47,7 @@ use std::sync::Arc;
 use guideway_scene::{Budget, Method, MethodInfo, Prepared, RenderError, Scene};
 
 use frame::memory::NAME;
-use frame::prepared::CpuPrepared;
+use frame::state::CpuPrepared;
 
 /// The fast render method without a GPU.
 #[derive(Clone, Copy, Debug, Default)]

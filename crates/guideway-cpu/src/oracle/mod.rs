@@ -137,7 +137,7 @@ impl Prepared for PreparedOracle {
     }
 
     fn recolor(&mut self, coloring: &Coloring) -> Result<EditOutcome, RenderError> {
-        if !coloring.suits(&self.scene) {
+        if !self.scene.accepts(coloring) {
             return Ok(EditOutcome::NotInPlace);
         }
         self.show_gesture(None)?;

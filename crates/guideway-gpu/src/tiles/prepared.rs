@@ -293,7 +293,7 @@ impl Prepared for PreparedTiles {
     }
 
     fn recolor(&mut self, coloring: &Coloring) -> Result<EditOutcome, RenderError> {
-        if !coloring.suits(&self.scene.scene) {
+        if !self.scene.scene.accepts(coloring) {
             return Ok(EditOutcome::NotInPlace);
         }
         self.end_gesture()?;

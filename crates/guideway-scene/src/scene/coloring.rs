@@ -5,7 +5,7 @@ use guideway_layout::Layout;
 use super::draw_order::{draw_order, states};
 use super::error::SceneError;
 use super::level::visible_level;
-use super::model::{Scene, SceneOptions};
+use super::options::SceneOptions;
 use super::path_state::PathState;
 use crate::color::Rgba;
 use crate::color_by::{self, Legend};
@@ -13,8 +13,8 @@ use crate::color_by::{self, Legend};
 /// Color of walls and doors: a contrast of 3:1 on white paper, and 5:1 on dark one.
 const STRUCTURE: Rgba = Rgba::opaque(144, 144, 144);
 
-/// The colors of all paths of a layout. A scene has one, and can take another one at any time:
-/// see [`Scene::recolor`].
+/// The colors of all paths of a layout. A scene has one, and can take another one at any time: see
+/// [`Scene::recolor`](crate::Scene::recolor).
 #[derive(Clone, Debug)]
 pub struct Coloring {
     pub(crate) colors: Colors,
@@ -77,19 +77,15 @@ impl Coloring {
         })
     }
 
-    /// Returns `true` if these may be the colors of a scene: they are as many as its paths.
-    pub fn suits(&self, scene: &Scene) -> bool {
+    /// Returns `true` if there are colors for so many paths, and no more.
+    pub(super) fn suits(&self, paths: usize) -> bool {
         match &self.colors {
             Colors::One(_) => true,
-            Colors::Each(colors) => colors.len() == scene.row_count(),
+            Colors::Each(colors) => colors.len() == paths,
         }
     }
 
-    /// Returns `true` if a scene with these colors draws its paths in another order.
-    pub fn moves_paths(&self, scene: &Scene) -> bool {
-        self.structure_below != scene.coloring.structure_below
-    }
-
+    /// The color of a path, by row.
     pub(super) fn color(&self, path: u32) -> Rgba {
         match &self.colors {
             Colors::One(color) => *color,
@@ -116,39 +112,6 @@ impl Colors {
         rows.into_iter().for_each(|row| each[row] = STRUCTURE);
         *self = Self::Each(each);
         true
-    }
-}
-
-impl Scene {
-    /// Takes other colors, at a cost proportional to the number of paths.
-    ///
-    /// # Panics
-    /// When the colors are fewer or more than the paths: see [`Coloring::suits`].
-    pub fn recolor(&mut self, coloring: &Coloring) {
-        assert!(coloring.suits(self), "colors of another layout");
-        let moves_paths = coloring.moves_paths(self);
-        self.coloring.clone_from(coloring);
-        self.colors_changed(moves_paths);
-    }
-
-    /// The colors of all paths.
-    pub fn coloring(&self) -> &Coloring {
-        &self.coloring
-    }
-
-    /// Color of a path, by row.
-    pub fn color(&self, path: u32) -> Rgba {
-        self.coloring.color(path)
-    }
-
-    /// Meaning of the colors, if a column decides them.
-    pub fn legend(&self) -> Option<&Legend> {
-        self.coloring.legend.as_ref()
-    }
-
-    /// Color of a path when no column decides it.
-    pub(crate) fn own_color(&self, path: u32) -> Rgba {
-        own_color(self.layout(), self.coloring.base, path)
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `model` | [`Scene`], its options and queries |
+//! | `model`, `options` | [`Scene`], its queries and options |
 //! | `coloring` | [`Coloring`]: the color of each path, and what it means |
 //! | `path_state`, `draw_order` | [`PathState`]; the order in which shown paths are drawn |
 //! | `states` | sets and counts states, adds and drops rows |
@@ -18,6 +18,7 @@ mod draw_order;
 mod error;
 mod level;
 mod model;
+mod options;
 mod path_state;
 mod states;
 mod styles;
@@ -25,5 +26,6 @@ mod styles;
 pub use coloring::Coloring;
 pub(crate) use coloring::{Colors, own_color};
 pub use error::{NoOpaqueColor, SceneError};
-pub use model::{LayoutCopy, Scene, SceneOptions};
+pub use model::{LayoutCopy, Scene};
+pub use options::SceneOptions;
 pub use path_state::PathState;

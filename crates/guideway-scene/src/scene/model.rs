@@ -1,4 +1,4 @@
-//! The scene: its options, its queries and the state that edits change.
+//! The scene: its queries and the state that edits change.
 
 use std::sync::{Arc, OnceLock};
 
@@ -7,34 +7,15 @@ use guideway_spline::Bounds;
 
 use super::bounds::curve_bounds;
 use super::census::StyleCensus;
-use super::coloring::Coloring;
+use super::coloring::{Coloring, own_color};
 use super::draw_order::{draw_order, states};
 use super::error::SceneError;
 use super::level::visible_level;
+use super::options::SceneOptions;
 use super::path_state::PathState;
 use crate::color::Rgba;
-use crate::color_by::ColorBy;
-use crate::ramp::NumberColors;
+use crate::color_by::Legend;
 use crate::table::Table;
-
-/// Colors and visible level of a scene.
-#[derive(Clone, Debug, Default)]
-pub struct SceneOptions {
-    /// Color of paths without a color of their own; black by default.
-    pub color: Option<Rgba>,
-    /// Colors every path by a column instead.
-    pub color_by: Option<ColorBy>,
-    /// Colors of the numbers of that column.
-    pub numbers: NumberColors,
-    /// Draws only the level with this name or id.
-    pub level: Option<String>,
-    /// Chooses the colors of a column by the paths of all levels, so that scenes of single levels
-    /// have them in common.
-    pub has_common_colors: bool,
-    /// Draws walls, doors and lanes of humans in gray below the ways of vehicles, unless a column
-    /// decides the colors.
-    pub has_gray_structure: bool,
-}
 
 /// A layout with every path's style resolved. Only [`Scene::edit`] changes its paths.
 #[derive(Clone, Debug)]
@@ -195,6 +176,26 @@ impl Scene {
             }
             removed[row] = !exists;
         }
+    }
+
+    /// The colors of all paths.
+    pub fn coloring(&self) -> &Coloring {
+        &self.coloring
+    }
+
+    /// Color of a path, by row.
+    pub fn color(&self, path: u32) -> Rgba {
+        self.coloring.color(path)
+    }
+
+    /// Meaning of the colors, if a column decides them.
+    pub fn legend(&self) -> Option<&Legend> {
+        self.coloring.legend.as_ref()
+    }
+
+    /// Color of a path when no column decides it.
+    pub(crate) fn own_color(&self, path: u32) -> Rgba {
+        own_color(&self.layout, self.coloring.base, path)
     }
 
     /// The path's own width in meters, if it has one.

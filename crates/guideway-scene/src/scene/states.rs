@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use guideway_layout::{for_each_row, rows_ascend};
 use rayon::prelude::*;
 
-use super::coloring::Colors;
+use super::coloring::{Coloring, Colors};
 use super::model::Scene;
 use super::path_state::PathState;
 
@@ -17,6 +17,29 @@ impl Scene {
     pub fn draws_by_rows(&self) -> bool {
         let may_differ = self.coloring.structure_below || self.layout.paths.rank().is_some();
         !may_differ || self.draw_order().is_sorted()
+    }
+
+    /// Returns `true` if the scene can take these colors: they are as many as its paths.
+    pub fn accepts(&self, coloring: &Coloring) -> bool {
+        coloring.suits(self.row_count())
+    }
+
+    /// Returns `true` if paths are drawn in another order with these colors.
+    pub fn is_reordered_by(&self, coloring: &Coloring) -> bool {
+        self.coloring.structure_below != coloring.structure_below
+    }
+
+    /// Takes other colors, at a cost proportional to the number of paths.
+    ///
+    /// # Panics
+    /// When the colors are fewer or more than the paths: see [`Self::accepts`].
+    pub fn recolor(&mut self, coloring: &Coloring) {
+        assert!(self.accepts(coloring), "colors of another layout");
+        if self.is_reordered_by(coloring) {
+            self.order_changed();
+        }
+        self.coloring.clone_from(coloring);
+        self.census = OnceLock::new();
     }
 
     /// Drops all rows of paths, nodes and stations but the first ones, and gives their memory back.
@@ -63,14 +86,6 @@ impl Scene {
         let new: Vec<u32> = (first as u32..rows as u32).collect();
         self.count_new_styles(&new);
         self.order_changed();
-    }
-
-    /// Drops what depends on the colors, and on the draw order if they move paths.
-    pub(super) fn colors_changed(&mut self, moves_paths: bool) {
-        self.census = OnceLock::new();
-        if moves_paths {
-            self.order_changed();
-        }
     }
 
     /// Drops the draw order and the bounds; call after states change.

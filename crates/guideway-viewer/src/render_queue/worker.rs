@@ -144,7 +144,7 @@ impl Worker {
                     (Some(prepared), _) => {
                         matches!(prepared.recolor(&coloring), Ok(EditOutcome::InPlace { .. }))
                     }
-                    (None, Some(scene)) if coloring.suits(scene) => {
+                    (None, Some(scene)) if scene.accepts(&coloring) => {
                         Arc::make_mut(scene).recolor(&coloring);
                         true
                     }

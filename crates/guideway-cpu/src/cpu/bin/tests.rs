@@ -9,7 +9,7 @@ use guideway_spline::{Bounds, Point};
 
 use super::cull::VisibleClusters;
 use crate::cpu::frame::clusters::StyleSummary;
-use crate::cpu::frame::prepared::CpuPrepared;
+use crate::cpu::frame::state::CpuPrepared;
 use crate::cpu::ground::simd::SimdLevel;
 use crate::cpu::ground::tile::TILE_PX;
 use crate::cpu::testing::*;

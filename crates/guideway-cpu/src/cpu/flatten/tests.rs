@@ -8,7 +8,7 @@ use guideway_spline::{Affine, Point, Runs};
 
 use crate::Oracle;
 use crate::cpu::Cpu;
-use crate::cpu::frame::prepared::CpuPrepared;
+use crate::cpu::frame::state::CpuPrepared;
 use crate::cpu::testing::*;
 
 /// Roads across a square of 200 m, each cut into pieces, in random order.

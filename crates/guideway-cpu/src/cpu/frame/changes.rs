@@ -8,7 +8,7 @@ use guideway_spline::Bounds;
 
 use super::clusters::{PreparedClusters, StyleSummary};
 use super::memory::{fixed_bytes, over_budget};
-use super::prepared::{CpuPrepared, install};
+use super::state::{CpuPrepared, install};
 use crate::cpu::ground::gesture::ShownGesture;
 
 impl CpuPrepared {
@@ -77,7 +77,7 @@ impl CpuPrepared {
 
     /// Takes other colors, if they suit the scene.
     pub(super) fn take_colors(&mut self, coloring: &Coloring) -> EditOutcome {
-        if !coloring.suits(&self.scene) {
+        if !self.scene.accepts(coloring) {
             return EditOutcome::NotInPlace;
         }
         self.end_gesture();

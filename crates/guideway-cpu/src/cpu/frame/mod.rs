@@ -2,7 +2,8 @@
 //!
 //! | module            | does                                                                     |
 //! |-------------------|--------------------------------------------------------------------------|
-//! | `prepared`        | owns the scene and what lasts between frames; renders                    |
+//! | `state`           | the scene and what lasts between frames                                  |
+//! | `prepared`        | renders frames                                                           |
 //! | `changes`         | applies edits, colors and gestures                                       |
 //! | `clusters`        | clusters, cached lines and styles of the scene                           |
 //! | `memory`          | plans a frame within the budget                                          |
@@ -17,5 +18,6 @@ pub(super) mod memory;
 pub(super) mod picture_cache;
 pub(super) mod pipeline;
 pub(super) mod prepared;
+pub(super) mod state;
 #[cfg(test)]
 mod tests;

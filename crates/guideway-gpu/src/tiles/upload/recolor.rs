@@ -15,7 +15,7 @@ pub(crate) fn recolor(
     device: &mut DeviceContext,
     coloring: &Coloring,
 ) -> Result<SceneBufferEdit, RenderError> {
-    let moves_paths = coloring.moves_paths(&uploaded.scene);
+    let moves_paths = uploaded.scene.is_reordered_by(coloring);
     Arc::make_mut(&mut uploaded.scene).recolor(coloring);
     if std::mem::replace(&mut uploaded.is_incomplete, true) || moves_paths {
         return Ok(SceneBufferEdit::NeedsUpload);

@@ -49,8 +49,8 @@ impl Args {
         let has_way = self.apart || self.drop || self.remove || self.restyle || self.recolor;
         if self.motion != MotionKind::Edit && (self.moved.is_some() || has_way) {
             return Err(usage_error(
-                "--moved, --drop, --apart, --remove, --restyle and --recolor apply only with --motion \
-                 edit",
+                "--moved, --drop, --apart, --remove, --restyle and --recolor apply only with \
+                 --motion edit",
                 "Add it, such as `--motion edit --moved 10`",
             ));
         }

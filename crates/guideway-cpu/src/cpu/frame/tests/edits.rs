@@ -9,7 +9,7 @@ use guideway_scene::{
 use guideway_spline::{Affine, Point, Runs};
 
 use crate::cpu::Cpu;
-use crate::cpu::frame::prepared::CpuPrepared;
+use crate::cpu::frame::state::CpuPrepared;
 use crate::cpu::testing::*;
 
 #[test]

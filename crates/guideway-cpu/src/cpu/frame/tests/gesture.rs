@@ -6,7 +6,7 @@ use guideway_scene::{Budget, Frame, Gesture, Prepared, RenderError, Scene, Style
 use guideway_spline::{Affine, Point};
 
 use crate::Oracle;
-use crate::cpu::frame::prepared::CpuPrepared;
+use crate::cpu::frame::state::CpuPrepared;
 use crate::cpu::testing::*;
 
 fn maps() -> [Affine; 6] {

@@ -8,7 +8,7 @@ use guideway_scene::{Budget, Edit, Frame, Insertion, PathState, Prepared, Shadin
 use guideway_spline::{Affine, Point, Runs};
 
 use crate::cpu::Cpu;
-use crate::cpu::frame::prepared::CpuPrepared;
+use crate::cpu::frame::state::CpuPrepared;
 use crate::cpu::testing::*;
 
 /// The view of a square of 200 m, panned by pixels to the right and down.

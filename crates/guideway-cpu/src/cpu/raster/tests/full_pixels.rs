@@ -7,7 +7,7 @@ use guideway_scene::{Budget, Edit, Frame, LineRule, PathState, Prepared, Scene, 
 use guideway_spline::Point;
 
 use crate::cpu::Cpu;
-use crate::cpu::frame::prepared::CpuPrepared;
+use crate::cpu::frame::state::CpuPrepared;
 use crate::cpu::testing::*;
 
 /// Draws the next frame; returns the number of pixels that are known to be full.

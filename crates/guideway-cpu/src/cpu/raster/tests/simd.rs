@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use guideway_scene::{Budget, Style};
 
-use crate::cpu::frame::prepared::CpuPrepared;
+use crate::cpu::frame::state::CpuPrepared;
 use crate::cpu::ground::simd::SimdLevel;
 use crate::cpu::testing::*;
 
