@@ -77,7 +77,7 @@ impl Coloring {
         })
     }
 
-    /// Returns `true` if there are colors for so many paths, and no more.
+    /// Returns `true` if each of `paths` paths has a color.
     pub(super) fn suits(&self, paths: usize) -> bool {
         match &self.colors {
             Colors::One(_) => true,
