@@ -83,10 +83,10 @@ export interface Diff {
   groups: { what: string; example: string }[];
 }
 
-/** What a picture shows: crates/guideway-web/src/look.rs. */
 /** Where the font of symbols is: base64 of gzip, or an address. */
 export type Symbols = { packed: string } | { url: string };
 
+/** What a picture shows: crates/guideway-web/src/look.rs. */
 export interface Look {
   width: number;
   height: number;

@@ -3,10 +3,13 @@
 import { GuidewayError } from "./engine.js";
 import { unpacked } from "./gzip.js";
 
-/** The address of a file beside this module, which has no address of its own in a notebook. */
-export function besideModule(name: string): string | URL {
+/**
+ * The address of a file beside a module, which has no address of its own in a notebook. Bundlers
+ * find the file where `address` is written out with its name.
+ */
+export function besideModule(address: () => URL): string | URL {
   try {
-    return new URL(name, import.meta.url);
+    return address();
   } catch {
     return "";
   }

@@ -30,9 +30,13 @@ export class GuidewayView extends Base {
     ...SWITCHES,
   ];
   /** The address of the engine; set it before the first element is in a page. */
-  static engineUrl: string | URL = besideModule("engine.wasm.gz");
+  static engineUrl: string | URL = besideModule(
+    () => new URL("./engine.wasm.gz", import.meta.url),
+  );
   /** The address of the font of symbols, which is fetched when a name has one. */
-  static symbolsUrl: string | URL = besideModule("symbols.ttf.gz");
+  static symbolsUrl: string | URL = besideModule(
+    () => new URL("./symbols.ttf.gz", import.meta.url),
+  );
 
   private readonly shadow: Shadow;
   private readonly map: GuidewayMap;

@@ -40,8 +40,8 @@ function addressOf(bytes: unknown): string {
   return URL.createObjectURL(new Blob([bytes as DataView<ArrayBuffer>]));
 }
 
-/** Gives the element its engine and the font of symbols. Each widget loads this module anew, but the first one defines the
- * element, which compiles one engine for all. */
+/** Gives the element its engine and the font of symbols. Each widget loads this module anew, but the
+ * first one defines the element, which compiles one engine for all. */
 function provideEngine(model: Model): void {
   const element = customElements.get("guideway-view") as typeof GuidewayView;
   element.engineUrl ||= addressOf(model.get("_engine"));
