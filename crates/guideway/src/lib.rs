@@ -15,7 +15,7 @@
 //! | [`scene`] | colors, widths and draw order; edits; the contract of all render methods |
 //! | `document` | a layout under edit: selection, search, undo, journal, with the feature `document` |
 //! | `script` | edits by a list of steps in JSON, with the feature `script` |
-//! | `compose` | the finished picture as PNG, SVG or PDF, with backdrop, labels, legend and title, with the feature `compose` |
+//! | `compose` | the finished picture with all its layers, as PNG, SVG or PDF; feature `compose` |
 //! | `json` | facts and routes for programs in other languages, with the feature `json` |
 //! | [`methods`], [`method`] | the render methods of this build |
 //!

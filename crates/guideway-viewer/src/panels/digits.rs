@@ -11,7 +11,7 @@ use eframe::egui::{
 /// The signs of numbers. egui forgets a layout that no frame asks for, so each frame asks for all.
 const SIGNS: &str = "0123456789.,-:xym";
 
-/// The signs of a frame, laid out.
+/// The layouts of all signs, for one frame.
 pub(super) struct Digits {
     font: FontId,
     color: Color32,
@@ -22,7 +22,7 @@ impl Digits {
     pub(super) fn new(ui: &Ui) -> Self {
         let font = TextStyle::Monospace.resolve(ui.style());
         let color = ui.visuals().text_color();
-        let layout = |sign: char| (sign, laid_out(ui, sign, &font, color));
+        let layout = |sign: char| (sign, layout_of(ui, sign, &font, color));
         let known = SIGNS.chars().map(layout).collect();
         Self { font, color, known }
     }
@@ -40,7 +40,7 @@ impl Digits {
             let known = self.known.iter().find(|(known, _)| *known == sign);
             let galley = match known {
                 Some((_, galley)) => Arc::clone(galley),
-                None => laid_out(ui, sign, &self.font, self.color),
+                None => layout_of(ui, sign, &self.font, self.color),
             };
             ui.painter().galley(at, galley, self.color);
         }
@@ -49,7 +49,7 @@ impl Digits {
     }
 }
 
-fn laid_out(ui: &Ui, sign: char, font: &FontId, color: Color32) -> Arc<Galley> {
+fn layout_of(ui: &Ui, sign: char, font: &FontId, color: Color32) -> Arc<Galley> {
     let painter = ui.painter();
     painter.layout_no_wrap(sign.to_string(), font.clone(), color)
 }

@@ -310,26 +310,23 @@ fn send(
     let appends = !moved_parts.is_empty();
     if appends {
         let packed = Packed::of(&uploaded.scene, moved_parts, uploaded.packing.exact());
-        let (strokes, clusters) = (buffers.stroke_list.len(), first_new);
+        let strokes = buffers.stroke_list.len();
         let index = buffers.append(&device.gpu, &mut device.memory, &packed)?;
-        path_strokes.append(buffers, strokes, clusters, uploaded.scene.row_count());
-        let first_point = buffers.cluster_list[clusters].first_point;
+        path_strokes.append(buffers, strokes, first_new, uploaded.scene.row_count());
+        let first_point = buffers.cluster_list[first_new].first_point;
         let mut points = Patch::default();
         let first_word = first_point as usize * PointFormat::Exact.words();
         points.set_all(first_word, &packed.exact_m);
         patches.add_finished(Target::Points(index), points);
-        effect.moved_bytes += buffers.send_new(device, [strokes, clusters])?;
-        for cluster in clusters..buffers.cluster_list.len() {
-            patches.dirty.add(cluster);
-            patches.recounted.add(cluster);
-        }
+        effect.moved_bytes += buffers.send_new(device, [strokes, first_new])?;
+    }
+    let new = first_new..buffers.cluster_list.len();
+    for cluster in new.clone() {
+        patches.dirty.add(cluster);
+        patches.recounted.add(cluster);
     }
     buffers.count_whole_paths(patches.recounted.iter());
-    for cluster in patches
-        .clusters
-        .iter()
-        .chain(first_new..buffers.cluster_list.len())
-    {
+    for cluster in patches.clusters.iter().chain(new) {
         let reach_m = f64::from(buffers.cluster_list[cluster].reach_m());
         uploaded.facts.reach_m = uploaded.facts.reach_m.max(reach_m);
     }
