@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use crate::{FrameSize, View};
+use guideway_spline::Point;
+
+use crate::{FrameSize, RenderError, View};
 
 /// Consecutive whole rows of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +25,16 @@ impl Strip {
             first_row: 0,
             size: view.size(),
         }
+    }
+
+    /// The strip that shows the world where `by_m` moves it.
+    ///
+    /// # Errors
+    /// [`RenderError::View`] when the center of the view would be too far from the origin.
+    pub fn with_world_moved(&self, by_m: Point<f64>) -> Result<Self, RenderError> {
+        let view = &self.view;
+        let view = View::new(view.size(), view.center_m() - by_m, view.px_per_m())?;
+        Ok(Self { view, ..*self })
     }
 
     /// The whole view.
@@ -67,9 +79,23 @@ impl View {
 
 #[cfg(test)]
 mod tests {
-    use guideway_spline::Point;
-
     use super::*;
+
+    #[test]
+    fn a_moved_world_moves_the_picture() {
+        let size = FrameSize::new(100, 200).unwrap();
+        let view = View::new(size, Point::new(7.0, 3.0), 4.0).unwrap();
+        let by_m = Point::new(10.0, -2.0);
+        let at_m = Point::new(1.0, 5.0);
+        for strip in view.strips(6_400) {
+            let moved = strip.with_world_moved(by_m).unwrap();
+            assert_eq!((moved.rows(), moved.size()), (strip.rows(), strip.size()));
+            let there = view.pixel_from_world(at_m + by_m);
+            assert_eq!(moved.view().pixel_from_world(at_m), there);
+        }
+        let far = Strip::whole(&view).with_world_moved(Point::new(2e12, 0.0));
+        assert!(matches!(far, Err(RenderError::View { .. })));
+    }
 
     #[test]
     fn strips_cover_the_view_within_the_pixel_limit() {

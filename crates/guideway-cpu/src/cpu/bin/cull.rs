@@ -30,6 +30,8 @@ pub(crate) struct VisibleCluster {
     pub(crate) is_oversized: bool,
     /// True if the 16-bit rasterizer can draw it.
     pub(crate) fits_fixed_point: bool,
+    /// True if a gesture moves it, and not all others.
+    pub(crate) is_moved: bool,
     /// First tile column and row that it may touch, and the end (exclusive).
     columns: [u16; 2],
     rows: [u16; 2],
@@ -59,6 +61,8 @@ impl VisibleCluster {
                 bounds.reach_m() * ctx.view.px_per_m(),
                 ctx.min_radius_px()..=ctx.max_radius_px(),
             ),
+            is_moved: (ctx.gesture)
+                .is_some_and(|gesture| !gesture.moves_all && gesture.moves(cluster)),
             columns: tiles(touched.min.x, touched.max.x, picture.max.x),
             rows: tiles(touched.min.y, touched.max.y, picture.max.y),
         })

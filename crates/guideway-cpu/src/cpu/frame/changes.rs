@@ -10,6 +10,7 @@ use super::clusters::{PreparedClusters, StyleSummary};
 use super::memory::{fixed_bytes, over_budget};
 use super::state::{CpuPrepared, install};
 use crate::cpu::ground::gesture::ShownGesture;
+use crate::cpu::raster::resting_coverage::RestingCoverage;
 
 impl CpuPrepared {
     /// Applies an edit to the scene, and updates the clusters and the caches.
@@ -151,11 +152,15 @@ impl CpuPrepared {
             let clusters = &mut self.clusters;
             let changes = install(self.pool.as_ref(), || clusters.end_gesture(gesture));
             self.take_changes(&changes);
+            self.resting = RestingCoverage::default();
         }
     }
 
     /// Forgets what the caches have of places where paths were or are.
     fn take_changes(&mut self, changes: &[Bounds<f64>]) {
+        if changes.is_empty() {
+            return;
+        }
         self.tones = None;
         self.full_pixels.forget();
         if let Some(picture) = &mut self.picture {

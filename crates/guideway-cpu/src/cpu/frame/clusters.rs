@@ -5,7 +5,7 @@ use guideway_scene::cluster::{
     AppliedEdit, CLUSTER_LEN, ClusterIndex, ClusterOrder, Members, PendingEdit, RowHulls,
 };
 use guideway_scene::{Cancel, GesturePaths, PathState, Rgba, Scene, Shading, Strip, Style};
-use guideway_spline::{Affine, Bounds};
+use guideway_spline::{Affine, Bounds, Point};
 use rayon::prelude::*;
 
 use crate::cpu::flatten::line_cache::LineCache;
@@ -187,9 +187,14 @@ impl PreparedClusters {
         let mapped = whole.iter().map(|(cluster, _)| *cluster).chain(own);
         let bounds = self.index.bounds();
         let at_rest = mapped.filter_map(|at| Some((at, bounds[at as usize]?)));
+        let shown = rows
+            .par_iter()
+            .filter(|&&row| scene.state(row) == PathState::Shown);
         ShownGesture {
             paths,
             by: Affine::IDENTITY,
+            shift_m: Point::default(),
+            moves_all: shown.count() == scene.shown_count(),
             at_rest: at_rest.collect(),
             is_split,
             thinned: parts.iter().map(|(cluster, _)| *cluster).collect(),
@@ -204,6 +209,11 @@ impl PreparedClusters {
         gesture: &mut ShownGesture,
         by: Affine,
     ) -> Vec<Bounds<f64>> {
+        let (shift_m, by) = gesture.split(by);
+        gesture.shift_m = shift_m;
+        if by == gesture.by {
+            return Vec::new();
+        }
         let keeps_lines = gesture.by.x == by.x && gesture.by.y == by.y;
         gesture.by = by;
         let mut changed = Vec::with_capacity(2 * gesture.at_rest.len());

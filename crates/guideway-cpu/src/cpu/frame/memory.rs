@@ -6,6 +6,7 @@ use guideway_scene::{Budget, RenderError, Scene, Shading, Strip, Style};
 use super::clusters::PreparedClusters;
 use super::picture_cache::PictureCache;
 use crate::cpu::raster::full_pixel_cache::{FullPixelBand, FullPixelCache};
+use crate::cpu::raster::resting_coverage::RestingCoverage;
 use crate::cpu::raster::thread_scratch::ThreadScratch;
 
 /// Name of the method in options, errors and reports.
@@ -21,14 +22,17 @@ pub(crate) struct FrameMemory {
     pub(crate) picture_bytes: u64,
     /// True if the frame looks up known full pixels and looks for new ones.
     pub(crate) uses_full_pixels: bool,
+    /// True if the frame copies the samples of resting paths.
+    pub(crate) uses_resting: bool,
 }
 
 impl FrameMemory {
-    /// Plans a frame beside `fixed_bytes`. Drops the cached picture and the full pixels if the
-    /// budget has no room for them.
+    /// Plans a frame beside `fixed_bytes`, in which paths of one opaque color may rest beside those
+    /// of a gesture. Drops the cached picture and the full pixels if the budget has no room for
+    /// them.
     pub(crate) fn plan(
         fixed_bytes: u64,
-        (strip, style): (&Strip, &Style),
+        (strip, style, may_rest): (&Strip, &Style, bool),
         picture: &mut Option<PictureCache>,
         full_pixels: &mut FullPixelCache,
         budget: &Budget,
@@ -53,12 +57,19 @@ impl FrameMemory {
         } else {
             full_pixels.forget();
         }
+        let resting_bytes = RestingCoverage::planned_bytes(strip);
+        let has_room = own_bytes + frame_bytes + picture_bytes + resting_bytes <= limit_bytes / 2;
+        let uses_resting = may_rest && strip.is_whole() && !is_density && has_room;
+        if uses_resting {
+            own_bytes += resting_bytes;
+        }
         Self {
             needed_bytes: own_bytes + frame_bytes + picture_bytes,
             own_bytes,
             frame_bytes,
             picture_bytes,
             uses_full_pixels,
+            uses_resting,
         }
     }
 }

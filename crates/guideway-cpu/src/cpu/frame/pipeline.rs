@@ -23,7 +23,8 @@ use crate::cpu::ground::damage::{DamageMap, TileGrid};
 use crate::cpu::ground::frame_context::FrameContext;
 use crate::cpu::ground::per_thread::sum;
 use crate::cpu::raster::full_pixel_cache::{FullPixelBand, FullPixelLookup};
-use crate::cpu::raster::job::{BandJob, BandProbe};
+use crate::cpu::raster::job::{BandJob, BandProbe, ScenePart};
+use crate::cpu::raster::resting_coverage::RestingCoverage;
 use crate::cpu::raster::thread_scratch::ThreadScratch;
 use crate::cpu::raster::tiles::{draw_colors, draw_densities};
 
@@ -51,6 +52,8 @@ pub(crate) struct FrameTarget<'a, 'p> {
     pub(crate) frame: &'p mut Frame,
     /// Pixels of the undamaged parts.
     pub(crate) cached: Option<&'a PictureCache>,
+    /// Coverage of the paths that rest while a gesture moves others.
+    pub(crate) resting: Option<&'a RestingCoverage>,
     /// Pixels that are known to be full.
     pub(crate) full_pixels: FullPixelLookup<'a>,
     /// Band that receives full pixels, and the pixels that are known to stay full.
@@ -274,6 +277,8 @@ impl FramePipeline {
             visible: &self.visible,
             lists: &self.lists,
             damage: &self.damage,
+            part: ScenePart::All,
+            resting: target.resting,
             full_pixels: target.full_pixels,
             probe,
             common_radius_px: ctx.common_radius_px(),

@@ -41,10 +41,17 @@ impl Prepared for CpuPrepared {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
+        let gesture = self.gesture.as_ref();
+        let shift_m = gesture.map(|gesture| gesture.shift_m);
+        let strip = &strip.with_world_moved(shift_m.unwrap_or_default())?;
+        let may_rest = gesture.is_some_and(|gesture| !gesture.moves_all);
         let memory = FrameMemory::plan(
-            fixed_bytes(&self.scene, &self.budget)
-                + self.gesture.as_ref().map_or(0, ShownGesture::bytes),
-            (strip, style),
+            fixed_bytes(&self.scene, &self.budget) + gesture.map_or(0, ShownGesture::bytes),
+            (
+                strip,
+                style,
+                may_rest && self.clusters.style.solid.is_some(),
+            ),
             &mut self.picture,
             &mut self.full_pixels,
             &self.budget,
@@ -65,6 +72,7 @@ impl Prepared for CpuPrepared {
             tones,
             simd,
             full_pixels,
+            resting,
             ..
         } = self;
         let shown = (&**scene, gesture.as_ref());
@@ -82,15 +90,20 @@ impl Prepared for CpuPrepared {
                     picture.is_some_and(|picture| picture.move_to(&ctx, &p.visible, &mut p.damage));
                 if !is_moved {
                     p.damage.fill(strip);
+                } else if memory.uses_resting {
+                    p.damage.widen_to_tiles(strip);
                 }
                 is_moved
             });
-            let can_probe = memory.uses_full_pixels && !is_moved;
+            let can_probe = memory.uses_full_pixels
+                && !is_moved
+                && gesture.as_ref().is_none_or(ShownGesture::is_at_rest);
             let found = can_probe.then(|| full_pixels.plan(&ctx)).flatten();
             let mut target = FrameTarget {
                 ctx: &ctx,
                 frame,
                 cached: picture.as_ref().filter(|_| is_moved),
+                resting: memory.uses_resting.then(|| resting.of_frame(&ctx)),
                 full_pixels: full_pixels.lookup(&ctx, 0.0),
                 probe: found.as_ref().map(|found| {
                     let known = full_pixels.lookup(&ctx, found.max_px_per_m());
@@ -186,11 +199,18 @@ impl CpuPrepared {
 
     /// Number of pixels of a picture that are known to be full.
     pub(crate) fn known_pixels(&self, view: &View, style: &Style) -> u32 {
-        let (strip, cancel) = (Strip::whole(view), Cancel::default());
+        let shift_m = self.gesture.as_ref().map(|gesture| gesture.shift_m);
+        let strip = Strip::whole(view).with_world_moved(shift_m.unwrap_or_default());
+        let (strip, cancel) = (strip.unwrap(), Cancel::default());
         let frame = (&strip, style, &cancel);
         let shown = (&*self.scene, self.gesture.as_ref());
         let ctx = self.clusters.style.frame_context(shown, self.simd, frame);
         self.full_pixels.lookup(&ctx, 0.0).count(&ctx)
+    }
+
+    /// Number of tiles of which the samples of resting paths are known.
+    pub(crate) fn known_resting_tiles(&self) -> usize {
+        self.resting.known_tiles()
     }
 
     /// Lists lines per tile for clusters of `min_tiles` tiles or more.

@@ -14,6 +14,7 @@ use super::pipeline::FramePipeline;
 use crate::cpu::ground::gesture::ShownGesture;
 use crate::cpu::ground::simd::SimdLevel;
 use crate::cpu::raster::full_pixel_cache::FullPixelCache;
+use crate::cpu::raster::resting_coverage::RestingCoverage;
 
 /// A prepared scene, with the state that passes from one frame to the next.
 pub(crate) struct CpuPrepared {
@@ -27,6 +28,7 @@ pub(crate) struct CpuPrepared {
     pub(super) pipeline: FramePipeline,
     pub(super) picture: Option<PictureCache>,
     pub(super) full_pixels: FullPixelCache,
+    pub(super) resting: RestingCoverage,
     /// Tone scale of the last picture whose density was drawn in strips.
     pub(super) tones: Option<(View, Style, ToneScale)>,
     pub(super) simd: SimdLevel,
@@ -70,6 +72,7 @@ impl CpuPrepared {
             pipeline: FramePipeline::new(threads(budget)),
             picture: None,
             full_pixels: FullPixelCache::default(),
+            resting: RestingCoverage::default(),
             tones: None,
             simd: SimdLevel::default(),
         })

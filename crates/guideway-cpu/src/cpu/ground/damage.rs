@@ -127,6 +127,17 @@ impl DamageMap {
         self.rects[self.grid.tile(column, row)]
     }
 
+    /// Adds the rest of each damaged tile of the strip.
+    pub(crate) fn widen_to_tiles(&mut self, strip: &Strip) {
+        let mut all = Self::default();
+        all.fill(strip);
+        for (rect, all) in self.rects.iter_mut().zip(all.rects) {
+            if !rect.is_empty() {
+                *rect = all;
+            }
+        }
+    }
+
     /// Columns and rows of pixels of each rectangle, in pixels of the view.
     pub(crate) fn rects_px(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
         let damaged = self.rects.iter().enumerate();
@@ -179,6 +190,13 @@ mod tests {
         damage.add(62..63, 30..33);
         let rects: Vec<_> = damage.rects_px().collect();
         let expected = [(60..64, 10..32), (64..70, 10..12), (62..63, 32..33)];
+        assert_eq!(rects, expected);
+        let size = FrameSize::new(100, 70).unwrap();
+        damage.widen_to_tiles(&Strip::whole(
+            &View::new(size, Point::default(), 1.0).unwrap(),
+        ));
+        let rects: Vec<_> = damage.rects_px().collect();
+        let expected = [(32..64, 0..32), (64..96, 0..32), (32..64, 32..64)];
         assert_eq!(rects, expected);
         damage.add(0..100, 0..70);
         let area: usize = damage.rects_px().map(|(x, y)| x.len() * y.len()).sum();

@@ -1,5 +1,5 @@
-//! The gesture that the clusters show: which of them its map moves, and which paths are drawn from
-//! clusters of the gesture instead of their own.
+//! The gesture that is shown: which clusters its map moves, and which paths are drawn from clusters
+//! of the gesture instead of their own. A translation of all paths moves the view instead.
 
 use guideway_scene::cluster::ClusterBounds;
 use guideway_scene::{GesturePaths, PathState, Scene};
@@ -8,7 +8,12 @@ use guideway_spline::{Affine, Point};
 /// A gesture, and the clusters without it.
 pub(crate) struct ShownGesture {
     pub(crate) paths: GesturePaths,
+    /// The map of the clusters.
     pub(crate) by: Affine,
+    /// A translation of the whole picture, in meters, beside the map.
+    pub(crate) shift_m: Point<f64>,
+    /// True if no path rests.
+    pub(crate) moves_all: bool,
     /// Mapped clusters without the map, ascending.
     pub(crate) at_rest: Vec<(u32, ClusterBounds)>,
     /// True for paths that the gesture draws from clusters of its own; empty without any.
@@ -25,6 +30,24 @@ impl ShownGesture {
         let at_rest = self.at_rest.capacity() * size_of::<(u32, ClusterBounds)>();
         let thinned = self.thinned.capacity() * size_of::<u32>();
         (at_rest + thinned + self.is_split.capacity()) as u64
+    }
+
+    /// The parts of a map that the view and the clusters take: all paths are translated by the view.
+    pub(crate) fn split(&self, by: Affine) -> (Point<f64>, Affine) {
+        match by.as_translation().filter(|_| self.moves_all) {
+            Some(shift_m) => (shift_m, Affine::IDENTITY),
+            None => (Point::default(), by),
+        }
+    }
+
+    /// Returns `true` if all clusters are where the scene has them.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.moves_all && self.by == Affine::IDENTITY
+    }
+
+    /// Returns `true` if the map moves a cluster.
+    pub(crate) fn moves(&self, cluster: u32) -> bool {
+        self.at_rest(cluster).is_some()
     }
 
     /// A cluster without the map, if the map moves it.

@@ -4,6 +4,7 @@
 //! summed colors and counts per pixel.
 
 mod composite;
+pub(crate) mod stored;
 #[cfg(test)]
 mod tests;
 
@@ -112,10 +113,7 @@ impl<const C: usize> CoverageMask<C> {
     /// Starts an empty tile of `width_px` by `height_px` visible pixels. The rest counts as
     /// covered.
     pub(crate) fn begin(&mut self, width_px: usize, height_px: usize) {
-        // In most tiles of a near view few blocks are dirty.
-        for (blocks, touched) in self.shape.iter_mut().zip(self.touched) {
-            set_bits(touched).for_each(|row| blocks[row] = [0; ROWS]);
-        }
+        self.clear_shape();
         (self.touched, self.translucent) = ([0; C], [0; C]);
         self.closes = true;
         for (window, open) in self.open.iter_mut().enumerate() {
@@ -133,6 +131,13 @@ impl<const C: usize> CoverageMask<C> {
         if unseen != 0 {
             self.shape[last] = [[unseen; ROWS]; TILE_PX];
             self.touched[last] = u32::MAX;
+        }
+    }
+
+    fn clear_shape(&mut self) {
+        // In most tiles of a near view few blocks are dirty.
+        for (blocks, touched) in self.shape.iter_mut().zip(self.touched) {
+            set_bits(touched).for_each(|row| blocks[row] = [0; ROWS]);
         }
     }
 

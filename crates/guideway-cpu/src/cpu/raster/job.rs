@@ -4,6 +4,7 @@ use guideway_scene::cluster::ClusterIndex;
 use guideway_spline::Point;
 
 use super::full_pixel_cache::{FullPixelBand, FullPixelLookup};
+use super::resting_coverage::RestingCoverage;
 use crate::cpu::bin::cull::VisibleClusters;
 use crate::cpu::bin::tile_lists::TileLists;
 use crate::cpu::flatten::line_cache::LineCache;
@@ -24,6 +25,10 @@ pub(crate) struct BandJob<'a> {
     pub(crate) lists: &'a TileLists,
     /// The pixels that are drawn.
     pub(crate) damage: &'a DamageMap,
+    /// The clusters that are drawn.
+    pub(crate) part: ScenePart,
+    /// Coverage of the paths that rest while a gesture moves others.
+    pub(crate) resting: Option<&'a RestingCoverage>,
     /// Pixels that are known to be full.
     pub(crate) full_pixels: FullPixelLookup<'a>,
     /// Probe for pixels that stay full.
@@ -41,6 +46,26 @@ impl BandJob<'_> {
         let own_px = || self.ctx.radius_px(path);
         columns::<C>(self.common_radius_px.unwrap_or_else(own_px))
     }
+
+    /// Returns `true` if the part has a visible cluster.
+    #[inline(always)]
+    pub(crate) fn draws(&self, key: u32) -> bool {
+        match self.part {
+            ScenePart::All => true,
+            ScenePart::Resting => !self.visible.get(key).is_moved,
+            ScenePart::Moved => self.visible.get(key).is_moved,
+        }
+    }
+}
+
+/// A part of the visible clusters.
+#[derive(Clone, Copy)]
+pub(crate) enum ScenePart {
+    All,
+    /// Clusters that no gesture moves.
+    Resting,
+    /// Clusters that a gesture moves.
+    Moved,
 }
 
 /// A look for pixels that stay full in the frames to come.

@@ -4,6 +4,7 @@
 //! | module                        | does                                                     |
 //! |-------------------------------|----------------------------------------------------------|
 //! | `tiles`                       | loops over the tiles of a band, on all threads           |
+//! | `solid`                       | one opaque color: samples in any order                   |
 //! | `job`                         | data that the tiles of a band share; the tile to draw    |
 //! | `cluster_in_tile`             | the lines of one cluster relative to a tile              |
 //! | `layered`                     | several colors: strokes by descending draw rank          |
@@ -16,6 +17,7 @@
 //! | `coverage_mask`, `bits`       | the samples of a tile as bits                            |
 //! | `resolve`, `background`       | coverage to RGBA                                         |
 //! | `full_pixel_cache`            | pixels known to stay full while the view zooms           |
+//! | `resting_coverage`            | samples of the paths that rest while others are dragged  |
 //! | `tile_rows`, `thread_scratch` | pixels and buffers of one thread                         |
 
 pub(super) mod background;
@@ -32,6 +34,8 @@ pub(super) mod job;
 pub(super) mod layered;
 pub(super) mod line_batch;
 pub(super) mod resolve;
+pub(super) mod resting_coverage;
+pub(super) mod solid;
 #[cfg(test)]
 mod tests;
 pub(super) mod thread_scratch;

@@ -10,31 +10,22 @@ use guideway_spline::mem::prefetch;
 use rayon::prelude::*;
 
 use super::background::{Background, solid_ramp};
-use super::cluster_in_tile::{ClusterInTile, DrawRange, prefetch_next};
+use super::cluster_in_tile::{ClusterInTile, prefetch_next};
 use super::counted::CountedTile;
-use super::job::{BandJob, BandProbe, Tile};
+use super::job::{BandJob, Tile};
 use super::layered::LayeredTile;
 use super::resolve::ResolveSource;
+use super::solid::{cover_open_pixels, find_full_pixels};
 use super::thread_scratch::ThreadScratch;
 use super::tile_rows::{TilePixels, TileRows};
 use crate::cpu::ground::per_thread::thread_slot;
-use crate::cpu::ground::samples::{LAYERED, SOLID, SamplePattern};
+use crate::cpu::ground::samples::{LAYERED, SamplePattern};
 use crate::cpu::ground::simd::simd_dispatch;
-use crate::cpu::ground::tile::{PASSES, PixelRows, TILE_PX};
+use crate::cpu::ground::tile::TILE_PX;
 
 /// Pieces of several colors that are sorted first; every further batch is twice as large. Most
 /// tiles are full before all pieces are sorted.
 const FIRST_SORTED: usize = 256;
-/// Most clusters of a sparse tile: they hide little of each other, so all passes are drawn at once.
-const FEW_CLUSTERS: usize = 6;
-/// Most line ranges of a sparse tile.
-const FEW_LINE_RANGES: usize = 64;
-/// Share of open pixels after the first pass from which on full pixels are no longer recorded: it
-/// would cost more than it saves.
-const MIN_OPEN_SHARE: f32 = 0.95;
-/// Share of open pixels at the start up to which all passes are drawn at once: the first ones hide
-/// little of the others.
-const MAX_OPEN_SHARE: f32 = 0.75;
 /// Most tiles per task.
 const MAX_TILES: usize = 8;
 
@@ -126,49 +117,6 @@ pub(crate) fn draw_densities(
     )
 }
 
-/// Covers samples of all pixels of a tile that are not known to be full.
-fn cover_open_pixels(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile) {
-    let full = job.full_pixels.tile(job.ctx.simd, tile.corner);
-    if full == [u32::MAX; TILE_PX] {
-        scratch.solid.begin_full();
-    } else {
-        cover_solid_by(job.ctx.simd, job, scratch, tile, &full);
-    }
-}
-
-/// Finds the full pixels of a tile that inset strokes fill, too: they stay full while the view
-/// zooms.
-fn find_full_pixels(
-    job: &BandJob<'_>,
-    probe: BandProbe<'_>,
-    scratch: &mut ThreadScratch,
-    tile: &Tile,
-) {
-    let ctx = probe.ctx;
-    let tile_row = tile.corner.y as usize / TILE_PX;
-    if !probe.found.rows.contains(&tile_row) {
-        return;
-    }
-    let inset_job = BandJob {
-        ctx,
-        common_radius_px: ctx.common_radius_px(),
-        max_radius_px: ctx.max_radius_px(),
-        ..*job
-    };
-    let known = probe.full_pixels.tile(ctx.simd, tile.corner);
-    let (touched, in_view) = scratch.solid.pixel_coverage(tile.width_px, tile.height_px);
-    let mut closed = in_view;
-    for (closed, known) in closed.iter_mut().zip(&known) {
-        *closed = !*closed | known;
-    }
-    cover_solid_by(ctx.simd, &inset_job, scratch, tile, &closed);
-    let (_, mut full) = scratch.solid.pixel_coverage(tile.width_px, tile.height_px);
-    for (full, in_view) in full.iter_mut().zip(&in_view) {
-        *full &= in_view;
-    }
-    probe.found.store(tile.corner, touched, &full);
-}
-
 /// Calls `draw` for each damaged tile that is not empty, with its rows of pixels; fills empty tiles
 /// with `empty`. Before, calls `load` for the pixels of each row of tiles.
 fn for_each_tile<P: Copy + Send + Sync>(
@@ -246,15 +194,6 @@ fn for_each_in_row<P: Copy + Send + Sync>(
 
 // One dispatch per function: compiled as one, each is optimized less for the sake of the others.
 simd_dispatch!(
-    fn cover_solid_by(
-        job: &BandJob<'_>,
-        scratch: &mut ThreadScratch,
-        tile: &Tile,
-        closed: &PixelRows
-    )
-    by cover_solid
-);
-simd_dispatch!(
     fn cover_layers_by(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile)
     by cover_layers
 );
@@ -262,57 +201,6 @@ simd_dispatch!(
     fn count_layers_by(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile)
     by count_layers
 );
-
-/// Covers samples with the lines of a tile, in any order, until all samples are covered. Pixels of
-/// `closed` count as covered from the start.
-#[inline(always)]
-fn cover_solid(job: &BandJob<'_>, scratch: &mut ThreadScratch, tile: &Tile, closed: &PixelRows) {
-    let ThreadScratch {
-        solid: mask,
-        solid_caps: cap_tables,
-        clusters,
-        ..
-    } = scratch;
-    mask.begin(tile.width_px, tile.height_px);
-    let all = mask.open_count() as f32;
-    mask.close_pixels(closed);
-    let open = mask.open_count() as f32;
-    let is_sparse = clusters.len() <= FEW_CLUSTERS;
-    // A probe needs to know which pixels are full.
-    let may_skip_closing = job.probe.is_none();
-    let line_ranges = || job.lists.line_ranges(tile.index);
-    let range_count = || line_ranges().map(<[_]>::len).sum::<usize>();
-    if may_skip_closing && is_sparse && range_count() <= FEW_LINE_RANGES {
-        mask.skip_closing();
-    }
-    let min_open = open * MIN_OPEN_SHARE;
-    for of_cluster in line_ranges().flat_map(|all| all.chunk_by(|a, b| a.key == b.key)) {
-        if mask.is_full() {
-            return;
-        }
-        let cluster = ClusterInTile::<SOLID>::new(job, tile, of_cluster[0].key);
-        cluster.cover_solid(mask, cap_tables, DrawRange::Lines(of_cluster));
-    }
-    let is_mostly_full = open <= all * MAX_OPEN_SHARE;
-    let at_once = if is_sparse || is_mostly_full {
-        PASSES
-    } else {
-        1
-    };
-    for first in (0..PASSES).step_by(at_once) {
-        if may_skip_closing && first == 1 && mask.open_count() as f32 >= min_open {
-            mask.skip_closing();
-        }
-        for (i, &key) in clusters.iter().enumerate() {
-            if mask.is_full() {
-                return;
-            }
-            prefetch_next(job, clusters, i);
-            let range = DrawRange::Passes(first..first + at_once);
-            ClusterInTile::<SOLID>::new(job, tile, key).cover_solid(mask, cap_tables, range);
-        }
-    }
-}
 
 /// Composites the pieces of a tile by descending draw rank, until nothing below can be seen.
 #[inline(always)]

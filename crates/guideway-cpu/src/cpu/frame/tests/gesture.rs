@@ -115,6 +115,70 @@ fn moved_whole_clusters_keep_their_lines() {
 }
 
 #[test]
+fn all_paths_dragged_by_whole_pixels_scroll_the_picture() {
+    let scene = scene(wandering(640, 11, 3.0, ORIGIN));
+    let mut shown = CpuPrepared::new(Arc::clone(&scene), &Budget::default()).unwrap();
+    let (view, style) = (view(ORIGIN, 0.5), Style::default());
+    for _ in 0..2 {
+        draw_with(&mut shown, &view, &style);
+    }
+    let [all, some, _] = selections(&scene);
+    let mut reuses = |paths, x: f64| {
+        let by = Affine::translation(Point::new(x, -2.0 * x));
+        shown.show_gesture(Some(&gesture(paths, by))).unwrap();
+        draw_with(&mut shown, &view, &style);
+        shown.has_reused()
+    };
+    assert!(reuses(&all, 8.0) && reuses(&all, -2.0));
+    assert!(!reuses(&all, 0.7));
+    assert!(!reuses(&some, 8.0));
+}
+
+#[test]
+fn resting_paths_are_drawn_once_per_view_to_the_same_bits() {
+    let scene = scene(wandering(6000, 11, 3.0, ORIGIN));
+    let prepare = || CpuPrepared::new(Arc::clone(&scene), &Budget::default()).unwrap();
+    let mut dragged = prepare();
+    let here = (view(ORIGIN, 0.5), wide_px(3.0));
+    let wider = (here.0, wide_px(4.0));
+    let aside = (view(Point::new(40.0, 7.3), 0.5), here.1);
+    let [all, some, left] = selections(&scene);
+    let mut known = Vec::new();
+    for (step, (paths, by, (view, style))) in [
+        (&some, maps()[1], here),
+        (&some, maps()[2], here),
+        (&some, maps()[3], here),
+        (&some, maps()[4], wider),
+        (&some, maps()[1], aside),
+        (&left, maps()[1], aside),
+        (&left, maps()[5], aside),
+        (&all, maps()[1], aside),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let gesture = gesture(paths, by);
+        let mut fresh = prepare();
+        for prepared in [&mut dragged, &mut fresh] {
+            prepared.show_gesture(Some(&gesture)).unwrap();
+        }
+        let [again, expected] =
+            [&mut dragged, &mut fresh].map(|prepared| draw_with(prepared, &view, &style).0);
+        assert!(again == expected, "step {step}");
+        known.push(dragged.known_resting_tiles());
+    }
+    // All paths leave none at rest.
+    assert!(
+        known[..7].iter().all(|known| *known > 0) && known[7] == 0,
+        "{known:?}"
+    );
+    dragged.show_gesture(None).unwrap();
+    let (view, style) = here;
+    let [again, expected] = [&mut dragged, &mut prepare()].map(|p| draw_with(p, &view, &style).0);
+    assert!(again == expected);
+}
+
+#[test]
 fn an_edit_ends_the_gesture() {
     let scene = scene(wandering(300, 11, 3.0, ORIGIN));
     let (view, style) = (view(ORIGIN, 0.8), Style::default());

@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use guideway_layout::Layout;
-use guideway_scene::{Budget, Edit, Frame, LineRule, PathState, Prepared, Scene, Style, View};
-use guideway_spline::Point;
+use guideway_scene::{
+    Budget, Edit, Frame, Gesture, LineRule, PathState, Prepared, Scene, Style, View,
+};
+use guideway_spline::{Affine, Point};
 
 use crate::cpu::Cpu;
 use crate::cpu::frame::state::CpuPrepared;
@@ -155,6 +157,37 @@ fn an_edit_shows_where_pixels_were_known() {
         draw_again(prepared, &zoomed, &style).0
     });
     assert!(again == fresh);
+}
+
+#[test]
+fn full_pixels_stay_known_while_all_paths_are_dragged() {
+    let scene = scene(crowded());
+    let (view, style) = (view(ORIGIN, 0.5), wide_px(3.0));
+    let paths: Arc<[u32]> = (0..scene.row_count() as u32).collect();
+    let drag = |step: f64| Affine::translation(Point::new(1.3, -0.4) * step);
+    let turn = |step: f64| Affine::rotation(0.01 * step, ORIGIN);
+    for (by, most_known) in [(&drag as &dyn Fn(f64) -> Affine, u32::MAX), (&turn, 0)] {
+        let prepare = || CpuPrepared::new(Arc::clone(&scene), &Budget::default()).unwrap();
+        let mut dragged = prepare();
+        let mut known = 0;
+        for step in 1..9 {
+            let mut fresh = prepare();
+            let gesture = Gesture {
+                paths: Arc::clone(&paths),
+                by: by(f64::from(step)),
+            };
+            for prepared in [&mut dragged, &mut fresh] {
+                prepared.show_gesture(Some(&gesture)).unwrap();
+            }
+            let (frame, now_known) = draw_again(&mut dragged, &view, &style);
+            assert!(frame == draw_again(&mut fresh, &view, &style).0);
+            known = now_known;
+        }
+        assert!(
+            known >= most_known.min(5000) && known <= most_known,
+            "{known}"
+        );
+    }
 }
 
 #[test]
