@@ -6,6 +6,9 @@
 //!   meanwhile   clusters | A: mapped       | B: these hidden  | C       | D: those of B, mapped |
 //! ```
 
+use std::ops::Range;
+
+use guideway_scene::cluster::DirtyClusters;
 use guideway_scene::{Gesture, GesturePaths, RenderError};
 use guideway_spline::Affine;
 use rayon::prelude::*;
@@ -28,7 +31,7 @@ use crate::tiles::layouts::Cluster;
 struct Selection {
     /// Clusters that draw no other path.
     whole: Vec<usize>,
-    /// Paths with a stroke in another cluster, ascending.
+    /// Paths with a stroke in another cluster, each once, neighbors side by side.
     split_paths: Vec<u32>,
     /// All strokes of these paths, ascending.
     split_strokes: Vec<u32>,
@@ -39,27 +42,33 @@ impl Selection {
         let row = |stroke: u32| buffers.ranks.row(buffers.stroke_list[stroke as usize].rank);
         let is_part =
             |stroke: &u32| buffers.is_drawn(*stroke) && is_selected[row(*stroke) as usize];
-        // The rows of the selected strokes of each cluster; `None` of a whole one.
-        let parts_of = |cluster: &Cluster| {
-            let strokes = cluster.first_stroke..cluster.first_stroke + cluster.strokes;
-            let drawn = strokes.clone().filter(|stroke| buffers.is_drawn(*stroke));
-            let (drawn, parts) = (drawn.count(), strokes.clone().filter(is_part).count());
-            (parts < drawn || drawn == 0).then(|| match parts {
-                0 => Vec::new(),
-                _ => strokes.filter(is_part).map(row).collect::<Vec<u32>>(),
-            })
+        let of_task = |clusters: Range<usize>| {
+            let (mut whole, mut paths) = (Vec::new(), Vec::new());
+            for index in clusters {
+                let cluster = &buffers.cluster_list[index];
+                let strokes = cluster.first_stroke..cluster.first_stroke + cluster.strokes;
+                let drawn = strokes.clone().filter(|stroke| buffers.is_drawn(*stroke));
+                let (drawn, first) = (drawn.count(), paths.len());
+                paths.extend(strokes.filter(is_part).map(row));
+                if drawn > 0 && paths.len() - first == drawn {
+                    whole.push(index);
+                    paths.truncate(first);
+                }
+            }
+            (whole, paths)
         };
-        let clusters = buffers.cluster_list.par_iter().with_min_len(TASK_CLUSTERS);
-        let parts: Vec<Option<Vec<u32>>> = clusters.map(parts_of).collect();
-        let whole = parts.iter().enumerate();
-        let whole = whole.filter(|(_, parts)| parts.is_none());
-        let whole = whole.map(|(index, _)| index).collect();
-        let mut split_paths: Vec<u32> = parts.into_iter().flatten().flatten().collect();
-        split_paths.par_sort_unstable();
-        split_paths.dedup();
-        let is_split = |stroke: &u32| {
-            buffers.is_drawn(*stroke) && split_paths.binary_search(&row(*stroke)).is_ok()
-        };
+        let all = buffers.cluster_list.len();
+        let tasks = (0..all).into_par_iter().step_by(TASK_CLUSTERS);
+        let tasks = tasks.map(|first| of_task(first..all.min(first + TASK_CLUSTERS)));
+        let (mut whole, mut split_paths) = (Vec::new(), Vec::new());
+        for (mut of_task, mut paths) in tasks.collect::<Vec<_>>() {
+            whole.append(&mut of_task);
+            split_paths.append(&mut paths);
+        }
+        // Clusters follow the Hilbert curve, so their paths need not be sorted again.
+        let mut known = vec![false; is_selected.len()];
+        split_paths.retain(|&path| !std::mem::replace(&mut known[path as usize], true));
+        let is_split = |stroke: &u32| known[row(*stroke) as usize] && buffers.is_drawn(*stroke);
         let split_strokes = match split_paths.is_empty() {
             true => Vec::new(),
             false => {
@@ -110,7 +119,7 @@ pub(crate) fn begin(
         path_strokes.get_or_insert_with(|| PathStrokes::of(buffers, rows));
     }
     let parts = parts_of(scene, &buffers.ranks, &selection.split_paths);
-    let packed = Packed::of(scene, parts, uploaded.packing.exact());
+    let packed = Packed::of_sorted(scene, &parts, uploaded.packing.exact());
     let [clusters, strokes] = [buffers.cluster_list.len(), buffers.stroke_list.len()];
     let point_buffers = buffers.point_buffers.len();
     effect.moved_bytes += size_of_val(packed.exact_m.as_slice()) as u64;
@@ -118,10 +127,7 @@ pub(crate) fn begin(
     uploaded.is_incomplete = true;
     buffers.hidden.grow(strokes);
     let hidden = selection.split_strokes;
-    for &stroke in &hidden {
-        buffers.hidden.set(stroke, true);
-        effect.dirty.add(cluster_of(buffers, stroke));
-    }
+    effect.dirty = set_hidden(buffers, &hidden, true);
     let own = clusters..buffers.cluster_list.len();
     buffers.count_whole_paths(effect.dirty.iter().chain(own.clone()));
     let mapped = selection.whole.into_iter().chain(own.clone());
@@ -252,10 +258,9 @@ pub(crate) fn end(
     buffers.cluster_list.truncate(gesture.clusters);
     buffers.stroke_list.truncate(gesture.strokes);
     buffers.point_buffers.truncate(gesture.point_buffers);
-    for &stroke in &gesture.hidden {
-        buffers.hidden.set(stroke, false);
-        effect.dirty.add(cluster_of(buffers, stroke));
-    }
+    effect
+        .dirty
+        .join(&set_hidden(buffers, &gesture.hidden, false));
     if has_own {
         // They have the points of other clusters, too.
         buffers.exact_points = None;
@@ -268,6 +273,24 @@ pub(crate) fn end(
     effect.moved_bytes += write_clusters(uploaded, device, range)?;
     uploaded.is_incomplete = false;
     Ok(effect)
+}
+
+/// Notes that strokes are hidden or shown, by all threads. Returns their clusters.
+fn set_hidden(buffers: &SceneBuffers, strokes: &[u32], is_hidden: bool) -> DirtyClusters {
+    let of_task = |strokes: &[u32]| {
+        let mut dirty = DirtyClusters::default();
+        for &stroke in strokes {
+            buffers.hidden.set(stroke, is_hidden);
+            dirty.add(cluster_of(buffers, stroke));
+        }
+        dirty
+    };
+    let mut all = DirtyClusters::default();
+    let tasks = strokes.par_chunks(TASK_STROKES).map(of_task);
+    for dirty in tasks.collect::<Vec<_>>() {
+        all.join(&dirty);
+    }
+    all
 }
 
 /// Hides or shows strokes on the device. Returns the bytes sent.
@@ -287,7 +310,7 @@ fn flag_strokes(
 fn write_clusters(
     uploaded: &mut UploadedScene,
     device: &DeviceContext,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
 ) -> Result<u64, RenderError> {
     let Some(buffers) = uploaded.buffers.as_ref().filter(|_| !range.is_empty()) else {
         return Ok(0);

@@ -3,6 +3,7 @@
 //! | file | purpose |
 //! |---|---|
 //! | `path_parts` | cuts paths into strokes |
+//! | `concatenated` | joins the lists of tasks |
 //! | `cluster`, `pack` | groups neighboring strokes to clusters; quantizes their points |
 //! | `draw_ranks`, `facts` | draw ranks of paths; scene properties that each frame needs |
 //! | `point_buffer`, `scene_buffers` | the buffers of a scene, as many as binding limits require |
@@ -16,6 +17,7 @@
 //! | `rewrite`, `states`, `style_changes` | new curves, states and styles, by all threads |
 
 pub(crate) mod cluster;
+mod concatenated;
 pub(crate) mod draw_ranks;
 pub(crate) mod edit;
 pub(crate) mod edit_effect;

@@ -7,6 +7,7 @@ use guideway_spline::{Bounds, Point, hilbert};
 use rayon::prelude::*;
 
 use super::cluster::ClusterOrigin;
+use super::concatenated::concatenated;
 use super::path_parts::PathPart;
 use crate::tiles::constants::CLUSTER_STROKES;
 use crate::tiles::layouts::{Cluster, PathStyle, PointFormat, Stroke};
@@ -97,20 +98,24 @@ impl Packed {
     /// Packs parts. Neighbors in the world become neighbors in memory. All threads share the work.
     pub(crate) fn of(scene: &Scene, mut parts: Vec<PathPart>, packing: Packing) -> Self {
         packing.sort(scene.layout(), &mut parts);
-        let tasks = parts.par_chunks(TASK_PARTS);
-        let tasks = tasks.map(|parts| Self::of_sorted(scene, parts, packing));
-        let all = tasks.collect::<Vec<_>>();
-        let (mut packed, mut exact) = (Self::default(), Self::default());
-        for [more, more_exact] in all {
-            packed.append(more);
-            exact.append(more_exact);
-        }
-        packed.append(exact);
-        packed
+        Self::of_sorted(scene, &parts, packing)
     }
 
-    /// Packs sorted parts: clusters of rounded and of exact points.
-    fn of_sorted(scene: &Scene, parts: &[PathPart], packing: Packing) -> [Self; 2] {
+    /// Packs parts whose neighbors in the world are neighbors already. All threads share the work.
+    pub(crate) fn of_sorted(scene: &Scene, parts: &[PathPart], packing: Packing) -> Self {
+        let tasks = parts.par_chunks(TASK_PARTS);
+        let tasks = tasks.map(|parts| Self::of_task(scene, parts, packing));
+        let (mut packed, mut exact) = (Vec::new(), Vec::new());
+        for [rounded, of_exact] in tasks.collect::<Vec<_>>() {
+            packed.push(rounded);
+            exact.push(of_exact);
+        }
+        packed.append(&mut exact);
+        Self::joined(&packed)
+    }
+
+    /// Packs the parts of a task: clusters of rounded and of exact points.
+    fn of_task(scene: &Scene, parts: &[PathPart], packing: Packing) -> [Self; 2] {
         let (mut packed, mut exact) = (Self::default(), Self::default());
         for parts in parts.chunks(CLUSTER_STROKES as usize) {
             let points = parts.iter().flat_map(|part| part.points(scene.layout()));
@@ -126,19 +131,41 @@ impl Packed {
         [packed, exact]
     }
 
-    /// Appends other clusters with their strokes and points.
-    fn append(&mut self, other: Self) {
-        let first_stroke = self.strokes.len() as u32;
-        let first_points = [self.rounded.len() as u32, self.exact_m.len() as u32];
-        let shifted = other.clusters.into_iter().map(|cluster| Cluster {
-            first_stroke: cluster.first_stroke + first_stroke,
-            first_point: cluster.first_point + first_points[cluster.format() as usize],
-            ..cluster
-        });
-        self.clusters.extend(shifted);
-        self.strokes.extend_from_slice(&other.strokes);
-        self.rounded.extend_from_slice(&other.rounded);
-        self.exact_m.extend_from_slice(&other.exact_m);
+    /// Joins clusters with their strokes and points.
+    fn joined(tasks: &[Self]) -> Self {
+        let (mut first_stroke, mut first_points) = (0, [0, 0]);
+        let mut clusters = Vec::with_capacity(tasks.iter().map(|task| task.clusters.len()).sum());
+        for task in tasks {
+            clusters.extend(task.clusters.iter().map(|cluster| Cluster {
+                first_stroke: cluster.first_stroke + first_stroke,
+                first_point: cluster.first_point + first_points[cluster.format() as usize],
+                ..*cluster
+            }));
+            first_stroke += task.strokes.len() as u32;
+            first_points[PointFormat::Rounded as usize] += task.rounded.len() as u32;
+            first_points[PointFormat::Exact as usize] += task.exact_m.len() as u32;
+        }
+        Self {
+            rounded: concatenated(
+                &tasks
+                    .iter()
+                    .map(|task| &task.rounded[..])
+                    .collect::<Vec<_>>(),
+            ),
+            exact_m: concatenated(
+                &tasks
+                    .iter()
+                    .map(|task| &task.exact_m[..])
+                    .collect::<Vec<_>>(),
+            ),
+            strokes: concatenated(
+                &tasks
+                    .iter()
+                    .map(|task| &task.strokes[..])
+                    .collect::<Vec<_>>(),
+            ),
+            clusters,
+        }
     }
 
     fn add(&mut self, scene: &Scene, mut cluster: Cluster, parts: &[PathPart]) {

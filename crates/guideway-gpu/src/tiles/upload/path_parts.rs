@@ -1,5 +1,6 @@
 //! Cuts paths into parts of at most 32 segments, each of which becomes one stroke.
 
+use bytemuck::Zeroable;
 use guideway_layout::{Layout, RunPoints};
 use guideway_scene::density::open_ends;
 use guideway_spline::Point;
@@ -9,7 +10,7 @@ use crate::tiles::constants::{PATH_END, PATH_START, SEGMENTS_BIT, STROKE_SEGMENT
 use crate::tiles::layouts::Stroke;
 
 /// A part of a run of a path.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Zeroable)]
 pub(crate) struct PathPart {
     pub(crate) path: u32,
     rank: u32,

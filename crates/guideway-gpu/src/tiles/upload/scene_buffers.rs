@@ -7,6 +7,7 @@ use guideway_scene::{RenderError, Rgba, Scene};
 use rayon::prelude::*;
 use wgpu::BufferUsages;
 
+use super::concatenated::concatenated;
 use super::draw_ranks::DrawRanks;
 use super::exact_points::ExactPoints;
 use super::hidden_strokes::HiddenStrokes;
@@ -343,7 +344,8 @@ pub(crate) fn parts_of(scene: &Scene, ranks: &DrawRanks, paths: &[u32]) -> Vec<P
         }
         parts
     });
-    tasks.collect::<Vec<_>>().concat()
+    let parts = tasks.collect::<Vec<_>>();
+    concatenated(&parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }
 
 /// The style of each rank; a single one if all paths look alike.
