@@ -17,9 +17,9 @@ const EMBEDDED: &[&[u8]] = &[
     SYMBOLS,
 ];
 
-/// The embedded font of symbols.
+/// The embedded font of symbols, which pages get where a name has one.
 #[cfg(not(target_arch = "wasm32"))]
-const SYMBOLS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/symbols.ttf"));
+pub const SYMBOLS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/symbols.ttf"));
 
 /// The fonts of all texts. Fonts of the system load when the first character needs them.
 pub(super) struct Fonts {

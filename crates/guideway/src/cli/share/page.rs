@@ -19,8 +19,6 @@ use crate::cli::floor_plan::PackedPlan;
 const PAGE: &[u8] = include_bytes!("../../../page/page.html.gz");
 /// The engine, as gzip.
 const ENGINE: &[u8] = include_bytes!("../../../page/engine.wasm.gz");
-/// The font of symbols, as gzip.
-const SYMBOLS: &[u8] = include_bytes!("../../../page/symbols.ttf.gz");
 /// The places of the page that engine and layout replace.
 const ENGINE_PLACE: &str = "<!--ENGINE-->";
 const SHARED_PLACE: &str = "<!--SHARED-->";
@@ -92,7 +90,8 @@ pub(super) fn page(
     let mut shared = json!({ "name": name, "title": title, "look": look });
     let mut files = packed("layout", name, content.layout)?;
     if content.has_symbols {
-        files += &script("text/plain", "symbols", &BASE64_STANDARD.encode(SYMBOLS));
+        let symbols = pack(guideway::compose::SYMBOLS);
+        files += &script("text/plain", "symbols", &BASE64_STANDARD.encode(symbols));
     }
     if let Some(plan) = content.plan {
         shared["floorPlan"] = described(plan);
@@ -180,10 +179,11 @@ mod tests {
         assert!(!made.contains("alert(1)</script"), "the title is no script");
         assert!(made.contains("connect-src 'none'"));
         let layout = pack(b"{}");
+        let symbols = pack(guideway::compose::SYMBOLS);
         for (id, content) in [
             ("engine", ENGINE),
             ("layout", &layout),
-            ("symbols", SYMBOLS),
+            ("symbols", &symbols),
         ] {
             let start = format!("id=\"{id}\">");
             let (_, rest) = made.split_once(&start).unwrap();
