@@ -150,7 +150,8 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),
     ("pyo3", "guideway-python"),
-    ("wasm-bindgen", "guideway-web"),
+    // Browsers have tables of encodings.
+    ("wasm-bindgen", "guideway-formats guideway-web"),
     ("web-time", "guideway-layout"),
 ];
 

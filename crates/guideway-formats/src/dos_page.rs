@@ -1,4 +1,4 @@
-//! Code pages of DOS, which encoding_rs does not have: bytes in, text out.
+//! Code pages of DOS, which the Encoding Standard does not have: bytes in, text out.
 
 /// A code page, by the characters of its bytes from 128 on.
 #[derive(Clone, Copy, Debug)]

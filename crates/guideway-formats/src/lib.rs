@@ -6,7 +6,7 @@
 //!
 //! | stage | input | output | modules |
 //! |---|---|---|---|
-//! | open | path or bytes | bytes, format | `read`, `input`, `unpack`, `encoding`, `format`, `sniff` |
+//! | open | path or bytes | bytes, format | `read`, `input`, `unpack`, `encoding`, `charset`, `dos_page`, `format`, `sniff` |
 //! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves and units of a format | uniform cubic runs, SI units | `spline`, `trajectory`, `ellipse`, `wgs84`, `speed_unit` |
@@ -24,8 +24,10 @@
 #[cfg(feature = "arrow")]
 pub mod arrow;
 mod builder;
+#[cfg(feature = "charsets")]
+mod charset;
 mod clamped;
-#[cfg(any(feature = "dxf", feature = "xml"))]
+#[cfg(feature = "charsets")]
 mod dos_page;
 mod driven;
 #[cfg(feature = "dxf")]

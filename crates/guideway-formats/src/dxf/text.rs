@@ -1,12 +1,6 @@
 //! Text decoder: decodes the text values of a DXF file to Unicode, by its release and code page.
 
-use encoding_rs::{
-    BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, ISO_8859_3, ISO_8859_4, ISO_8859_5,
-    ISO_8859_6, ISO_8859_7, ISO_8859_8, MACINTOSH, SHIFT_JIS, WINDOWS_874, WINDOWS_1250,
-    WINDOWS_1251, WINDOWS_1252, WINDOWS_1253, WINDOWS_1254, WINDOWS_1255, WINDOWS_1256,
-    WINDOWS_1257, WINDOWS_1258,
-};
-
+use crate::charset::Charset;
 use crate::dos_page::DosPage;
 
 /// Decoder of the text values of a file.
@@ -20,7 +14,7 @@ pub(super) struct TextDecoder {
 /// A code page.
 #[derive(Clone, Copy, Debug)]
 enum CodePage {
-    Known(&'static Encoding),
+    Known(Charset),
     Dos(DosPage),
 }
 
@@ -30,7 +24,7 @@ const UTF8_SINCE: &str = "AC1021";
 impl Default for TextDecoder {
     fn default() -> Self {
         Self {
-            page: CodePage::Known(WINDOWS_1252),
+            page: CodePage::Known(Charset::WINDOWS_1252),
             prefers_utf8: true,
         }
     }
@@ -46,14 +40,13 @@ impl TextDecoder {
     pub(super) fn new(release: &str, page: Option<&[u8]>, bytes: &[u8]) -> Self {
         let page = page.and_then(code_page);
         let is_by_chance = |text: &str| {
-            let is_east_asian =
-                matches!(page, Some(CodePage::Known(page)) if !page.is_single_byte());
+            let is_east_asian = matches!(page, Some(CodePage::Known(page)) if page.is_east_asian());
             is_east_asian && text.chars().all(|letter| letter < '\u{800}')
         };
         let is_text = || str::from_utf8(bytes).is_ok_and(|text| !is_by_chance(text));
         let is_utf8 = page.is_none() || release >= UTF8_SINCE || is_text();
         Self {
-            page: page.unwrap_or(CodePage::Known(WINDOWS_1252)),
+            page: page.unwrap_or(CodePage::Known(Charset::WINDOWS_1252)),
             prefers_utf8: is_utf8,
         }
     }
@@ -80,7 +73,7 @@ impl TextDecoder {
 impl CodePage {
     fn decode(self, bytes: &[u8]) -> String {
         match self {
-            Self::Known(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned(),
+            Self::Known(charset) => charset.decode(bytes).0,
             Self::Dos(page) => page.decode(bytes),
         }
     }
@@ -96,29 +89,29 @@ fn code_page(name: &[u8]) -> Option<CodePage> {
     let name = str::from_utf8(name).ok()?.trim().to_ascii_uppercase();
     let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
     Some(CodePage::Known(match (name.as_str(), digits) {
-        ("GB2312" | "GBK", _) | (_, "936") => GBK,
-        ("BIG5", _) | (_, "950") => BIG5,
-        ("KSC5601", _) | (_, "949") => EUC_KR,
-        ("MACINTOSH" | "MAC-ROMAN", _) => MACINTOSH,
-        ("ASCII" | "US_ASCII", _) | (_, "1252" | "8859-1") => WINDOWS_1252,
-        (_, "874") => WINDOWS_874,
-        (_, "932") => SHIFT_JIS,
-        (_, "1250") => WINDOWS_1250,
-        (_, "1251") => WINDOWS_1251,
-        (_, "1253") => WINDOWS_1253,
-        (_, "1254" | "8859-9") => WINDOWS_1254,
-        (_, "1255") => WINDOWS_1255,
-        (_, "1256") => WINDOWS_1256,
-        (_, "1257") => WINDOWS_1257,
-        (_, "1258") => WINDOWS_1258,
-        (_, "866") => IBM866,
-        (_, "8859-2") => ISO_8859_2,
-        (_, "8859-3") => ISO_8859_3,
-        (_, "8859-4") => ISO_8859_4,
-        (_, "8859-5") => ISO_8859_5,
-        (_, "8859-6") => ISO_8859_6,
-        (_, "8859-7") => ISO_8859_7,
-        (_, "8859-8") => ISO_8859_8,
+        ("GB2312" | "GBK", _) | (_, "936") => Charset::GBK,
+        ("BIG5", _) | (_, "950") => Charset::BIG5,
+        ("KSC5601", _) | (_, "949") => Charset::EUC_KR,
+        ("MACINTOSH" | "MAC-ROMAN", _) => Charset::MACINTOSH,
+        ("ASCII" | "US_ASCII", _) | (_, "1252" | "8859-1") => Charset::WINDOWS_1252,
+        (_, "874") => Charset::WINDOWS_874,
+        (_, "932") => Charset::SHIFT_JIS,
+        (_, "1250") => Charset::WINDOWS_1250,
+        (_, "1251") => Charset::WINDOWS_1251,
+        (_, "1253") => Charset::WINDOWS_1253,
+        (_, "1254" | "8859-9") => Charset::WINDOWS_1254,
+        (_, "1255") => Charset::WINDOWS_1255,
+        (_, "1256") => Charset::WINDOWS_1256,
+        (_, "1257") => Charset::WINDOWS_1257,
+        (_, "1258") => Charset::WINDOWS_1258,
+        (_, "866") => Charset::IBM866,
+        (_, "8859-2") => Charset::ISO_8859_2,
+        (_, "8859-3") => Charset::ISO_8859_3,
+        (_, "8859-4") => Charset::ISO_8859_4,
+        (_, "8859-5") => Charset::ISO_8859_5,
+        (_, "8859-6") => Charset::ISO_8859_6,
+        (_, "8859-7") => Charset::ISO_8859_7,
+        (_, "8859-8") => Charset::ISO_8859_8,
         (_, number) => return DosPage::of_number(number).map(CodePage::Dos),
     }))
 }
@@ -174,11 +167,11 @@ fn unicode_escape(text: &str) -> Option<(String, usize)> {
 fn page_escape(text: &str) -> Option<(String, usize)> {
     let digits = text.strip_prefix("\\M+")?.get(..5)?;
     let (page, digits) = digits.split_at_checked(1)?;
-    let encoding = match page {
-        "1" => SHIFT_JIS,
-        "2" => BIG5,
-        "3" => EUC_KR,
-        "5" => GBK,
+    let charset = match page {
+        "1" => Charset::SHIFT_JIS,
+        "2" => Charset::BIG5,
+        "3" => Charset::EUC_KR,
+        "5" => Charset::GBK,
         _ => return None,
     };
     let bytes = u16::from_str_radix(digits, 16).ok()?.to_be_bytes();
@@ -186,8 +179,8 @@ fn page_escape(text: &str) -> Option<(String, usize)> {
         0 => &bytes[1..],
         _ => &bytes[..],
     };
-    let (letter, is_wrong) = encoding.decode_without_bom_handling(bytes);
-    (!is_wrong).then(|| (letter.into_owned(), 8))
+    let (letter, is_wrong) = charset.decode(bytes);
+    (!is_wrong).then_some((letter, 8))
 }
 
 #[cfg(test)]

@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
-use encoding_rs::{DecoderResult, Encoding, UTF_8};
 use guideway_layout::Place;
 
 use crate::Problem;
+use crate::charset::Charset;
 use crate::dos_page::DosPage;
 use crate::text::printable;
 
@@ -24,10 +24,10 @@ pub(crate) fn from_declared(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Problem> {
     if is_ascii_label(label) && str::from_utf8(bytes).is_ok() {
         return Ok(Cow::Borrowed(bytes));
     }
-    let text = match Encoding::for_label_no_replacement(label) {
+    let text = match Charset::of_label(label) {
         // A declaration of UTF-16 that can be read byte by byte is wrong.
-        Some(encoding) if encoding.output_encoding() == UTF_8 => return Ok(Cow::Borrowed(bytes)),
-        Some(encoding) => decode(encoding, bytes)?,
+        Some(charset) if charset.is_unicode() => return Ok(Cow::Borrowed(bytes)),
+        Some(charset) => decode(charset, bytes)?,
         None => {
             let page = DosPage::of_label(label);
             let page = page.ok_or_else(|| unknown(&String::from_utf8_lossy(label)))?;
@@ -42,19 +42,14 @@ fn is_ascii_label(label: &[u8]) -> bool {
     label.ends_with(b"ascii") || label.starts_with(b"ansi_x3.4")
 }
 
-fn decode(encoding: &'static Encoding, bytes: &[u8]) -> Result<String, Problem> {
-    let mut decoder = encoding.new_decoder_without_bom_handling();
-    let length = decoder.max_utf8_buffer_length_without_replacement(bytes.len());
-    let mut text = String::new();
-    text.try_reserve_exact(length.unwrap_or(usize::MAX))
-        .map_err(|_| Problem::Io(std::io::ErrorKind::OutOfMemory.into()))?;
-    match decoder.decode_to_string_without_replacement(bytes, &mut text, true) {
-        (DecoderResult::InputEmpty, _) => Ok(text),
-        (_, read) => Err(Problem::WrongEncoding {
-            encoding: encoding.name(),
-            at: read as u64,
-        }),
-    }
+fn decode(charset: Charset, bytes: &[u8]) -> Result<String, Problem> {
+    charset.decode_strictly(bytes).map_err(|wrong| match wrong {
+        Some(at) => Problem::WrongEncoding {
+            encoding: charset.name(),
+            at: at as u64,
+        },
+        None => Problem::Io(std::io::ErrorKind::OutOfMemory.into()),
+    })
 }
 
 /// Returns the encoding that an XML declaration states.
