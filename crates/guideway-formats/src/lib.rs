@@ -88,12 +88,13 @@ mod yaml;
 
 pub use error::{LIMIT_OPTIONS, Problem, ReadError};
 pub use format::Format;
+pub use input::Parts;
 pub use losses::{Loss, Losses};
 pub use output::{
     NewFile, SaveError, is_same_file, lock_regular_file, remove_unfinished, replace_file,
     try_remove_unfinished,
 };
-pub use read::{read_bytes, read_file, read_stream};
+pub use read::{read_bytes, read_file, read_parts, read_stream};
 pub use sniff::sniff;
 pub use source::{BYTES_READ, FILE_BYTES, Progress, ReadOptions};
 pub use target::Target;

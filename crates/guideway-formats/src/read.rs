@@ -7,19 +7,17 @@ use std::path::Path;
 use guideway_layout::{Layout, Limits, Place, try_reserve};
 
 use crate::encoding::to_utf8;
-use crate::input::Input;
 #[cfg(unix)]
-use crate::input::{MAX_KEPT_BYTES, ReadAheadFile};
+use crate::input::ReadAheadFile;
+use crate::input::{Input, MAX_KEPT_BYTES, Parts};
 use crate::other_format::other_format;
 use crate::ros_map::is_ros_map;
-#[cfg(unix)]
 use crate::sniff::has_lif_key;
 use crate::source::{ReadOptions, STEPS_PER_BYTE, Source};
 use crate::unpack::unpack;
 use crate::{Format, Problem, ReadError, sniff};
 
 /// Bytes of the head of a file that tell its format.
-#[cfg(unix)]
 const HEAD_BYTES: u64 = 64 << 10;
 
 /// Reads a layout file. The content decides the format, not the name of the file.
@@ -34,7 +32,9 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     let size = file.metadata().map_err(io_problem).map_err(fail)?.len();
     check_size(size, &options.limits).map_err(fail)?;
     #[cfg(unix)]
-    if let Some(format) = format_in_parts(&mut file, size).map_err(fail)? {
+    let head = head(&mut file).map_err(io_problem).map_err(fail)?;
+    #[cfg(unix)]
+    if let Some(format) = format_in_parts(&head, size) {
         let name = &name;
         let file = ReadAheadFile::new(file, size, path);
         let source = Source { name, options };
@@ -57,6 +57,31 @@ pub fn read_stream(
 ) -> Result<Layout, ReadError> {
     let bytes = read_chunks(stream, Vec::new(), 0, options);
     read_bytes(name, &bytes.map_err(|p| ReadError::new(name, p))?, options)
+}
+
+/// Reads a layout from parts; error texts call the source `name`. Of a format whose reader takes
+/// parts, the bytes are never in memory as a whole.
+///
+/// # Errors
+/// See [`read_file`].
+pub fn read_parts(
+    name: &str,
+    parts: &dyn Parts,
+    options: &ReadOptions<'_>,
+) -> Result<Layout, ReadError> {
+    let source = Source { name, options };
+    let size = parts.byte_count();
+    check_size(size as u64, &options.limits).map_err(|p| source.fail(p))?;
+    let input = Input::Parts(parts);
+    let mut bytes = Vec::new();
+    let head = input.part(0..size.min(HEAD_BYTES as usize), &mut bytes);
+    let head = head.map_err(|p| source.fail(p))?;
+    if let Some(format) = format_in_parts(head, size as u64) {
+        source.check_format(format)?;
+        return read_input(source, format, &input);
+    }
+    let whole = input.part(0..size, &mut bytes);
+    read_bytes(name, whole.map_err(|p| source.fail(p))?, options)
 }
 
 /// Reads a layout from bytes; error texts call the source `name`.
@@ -131,19 +156,21 @@ fn not_built(format: Format) -> Problem {
 
 /// Returns the format of a file whose reader loads parts of it, so that it is not read as a whole:
 /// Arrow, and LIF that is too large to be kept.
-#[cfg(unix)]
-fn format_in_parts(file: &mut File, size: u64) -> Result<Option<Format>, Problem> {
-    let mut head = Vec::new();
-    file.take(HEAD_BYTES)
-        .read_to_end(&mut head)
-        .map_err(io_problem)?;
-    io::Seek::rewind(file).map_err(io_problem)?;
+fn format_in_parts(head: &[u8], size: u64) -> Option<Format> {
     let is_large = size > MAX_KEPT_BYTES as u64;
-    Ok(match sniff(&head) {
+    match sniff(head) {
         Some(Format::Arrow) => Some(Format::Arrow),
-        Some(Format::Lif) if is_large && has_lif_key(&head) => Some(Format::Lif),
+        Some(Format::Lif) if is_large && has_lif_key(head) => Some(Format::Lif),
         _ => None,
-    })
+    }
+}
+
+#[cfg(unix)]
+fn head(file: &mut File) -> io::Result<Vec<u8>> {
+    let mut head = Vec::new();
+    file.take(HEAD_BYTES).read_to_end(&mut head)?;
+    io::Seek::rewind(file)?;
+    Ok(head)
 }
 
 /// Reads the bytes of a file that is no layout, such as an image.

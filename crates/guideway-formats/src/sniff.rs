@@ -75,7 +75,6 @@ fn is_rmf(text: &[u8]) -> bool {
 }
 
 /// Returns `true` if the first key of a root object that one format uses is one of LIF.
-#[cfg(unix)]
 pub(crate) fn has_lif_key(bytes: &[u8]) -> bool {
     let text = without_mark(bytes);
     text.trim_ascii_start().starts_with(b"{")

@@ -1,6 +1,9 @@
 //! The calls of JavaScript. An error is thrown as JSON with `code`, `message` and `remedy`.
 
-use guideway::formats::Progress;
+use std::cell::RefCell;
+use std::io;
+
+use guideway::formats::{Parts, Progress};
 use guideway::layout::UserError;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -12,6 +15,46 @@ extern "C" {
     /// The worker defines it.
     #[wasm_bindgen(js_name = guidewayProgress)]
     fn guideway_progress(share: f64);
+
+    /// The bytes of a file, in the memory of the worker.
+    pub type Uint8Array;
+
+    #[wasm_bindgen(method, getter)]
+    fn length(this: &Uint8Array) -> usize;
+
+    #[wasm_bindgen(method)]
+    fn subarray(this: &Uint8Array, start: usize, end: usize) -> Uint8Array;
+
+    #[wasm_bindgen(js_namespace = ["Uint8Array", "prototype", "set"], js_name = call)]
+    fn copy(to: &mut [u8], from: &Uint8Array);
+}
+
+thread_local! {
+    /// The file that is being opened: no object of JavaScript goes from thread to thread.
+    static OPENED: RefCell<Option<Uint8Array>> = const { RefCell::new(None) };
+}
+
+/// The parts of the file that is being opened. Memory of an engine never shrinks, so a whole copy
+/// would be there for good.
+struct FileParts {
+    byte_count: usize,
+}
+
+impl Parts for FileParts {
+    fn byte_count(&self) -> usize {
+        self.byte_count
+    }
+
+    fn read(&self, from: usize, to: &mut [u8]) -> io::Result<()> {
+        let end = from.checked_add(to.len());
+        let end = end.filter(|end| *end <= self.byte_count);
+        let end = end.ok_or(io::ErrorKind::UnexpectedEof)?;
+        OPENED.with_borrow(|file| {
+            let file = file.as_ref().ok_or(io::ErrorKind::NotFound)?;
+            copy(to, &file.subarray(from, end));
+            Ok(())
+        })
+    }
 }
 
 /// Progress that the worker hears of.
@@ -63,8 +106,11 @@ fn thrown(error: UserError) -> JsValue {
 impl JsSession {
     /// Opens the bytes of a file.
     #[wasm_bindgen(constructor)]
-    pub fn new(name: &str, bytes: &[u8]) -> Result<JsSession, JsValue> {
-        let opened = Session::open(name, bytes, &ToWorker);
+    pub fn new(name: &str, bytes: Uint8Array) -> Result<JsSession, JsValue> {
+        let byte_count = bytes.length();
+        OPENED.set(Some(bytes));
+        let opened = Session::open(name, &FileParts { byte_count }, &ToWorker);
+        OPENED.set(None);
         opened.map(Self).map_err(thrown)
     }
 

@@ -9,7 +9,7 @@ use guideway::compose::{
     suitable_widths,
 };
 use guideway::document::{Index, pick_element};
-use guideway::formats::{Progress, ReadOptions, Target, WriteError, read_bytes};
+use guideway::formats::{Parts, Progress, ReadOptions, Target, WriteError, read_parts};
 use guideway::layout::{CompareOptions, Layout, Severity, UserError, changes};
 use guideway::network::{Route, RouteOptions, Router};
 use guideway::scene::density::ToneMap;
@@ -67,19 +67,19 @@ pub struct Saved {
 }
 
 impl Session {
-    /// Opens the bytes of a file; the content decides the format. Error texts call it `name`.
+    /// Opens a file, whose bytes stay outside; the content decides the format. Error texts call it `name`.
     /// The finished share goes to `progress`.
     ///
     /// # Errors
     /// When the command would refuse the file too.
-    pub fn open(name: &str, bytes: &[u8], progress: &dyn Progress) -> Result<Self, UserError> {
+    pub fn open(name: &str, file: &dyn Parts, progress: &dyn Progress) -> Result<Self, UserError> {
         let options = ReadOptions {
             progress: Some(progress),
             ..ReadOptions::default()
         };
         Ok(Self {
             name: name.to_owned(),
-            layout: Arc::new(read_bytes(name, bytes, &options)?),
+            layout: Arc::new(read_parts(name, file, &options)?),
             index: OnceLock::new(),
             scene: None,
             method: KeptMethod::default(),

@@ -21,7 +21,7 @@ fn bytes(path: &str) -> Vec<u8> {
 }
 
 fn site() -> Session {
-    Session::open("site.lif.json", &bytes(SITE), &NoProgress).unwrap()
+    Session::open("site.lif.json", &&bytes(SITE)[..], &NoProgress).unwrap()
 }
 
 fn parsed(answer: &str) -> Value {
@@ -195,7 +195,7 @@ fn refused_files_are_refused_in_the_words_of_the_command() {
         let error = |of: Result<(), UserError>| of.unwrap_err();
         let read = read_bytes("bad.json", bytes, &ReadOptions::default());
         [
-            error(Session::open("bad.json", bytes, &NoProgress).map(drop)),
+            error(Session::open("bad.json", &bytes, &NoProgress).map(drop)),
             error(read.map(drop).map_err(UserError::from)),
         ]
     };

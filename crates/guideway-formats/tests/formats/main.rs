@@ -39,6 +39,7 @@ mod opentcs_columns;
 mod opentcs_files;
 mod opentcs_write;
 mod other_files;
+mod parts;
 mod refusals;
 mod right_findings;
 mod rmf;
