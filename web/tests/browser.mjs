@@ -29,6 +29,24 @@ async function load(page, file) {
   await page.waitForFunction((before) => guideway.map.drawn > before, drawn);
 }
 
+/** The site of openTCS with names in encodings that the engine asks the browser for. */
+function encodedFiles() {
+  const whole = join(folder, "site.opentcs.xml");
+  guideway("convert", site, whole, "--quiet");
+  const text = readFileSync(whole, "utf8").replace(/^<\?xml.*?\?>/, "");
+  // Letters that the embedded fonts have.
+  const names = { GBK: [0xa7, 0xe1, 0xa7, 0xe5], "windows-1251": [0xef, 0xf3, 0xf2, 0xfc] };
+  return Object.entries(names).map(([encoding, bytes]) => {
+    const head = `<?xml version="1.0" encoding="${encoding}"?>`;
+    const before = /(?<=(?:<(?:point|path|outgoingPath) name|(?:source|destination)Point)=")/;
+    const parts = text.replace(/[^\x00-\x7f]/g, "?").split(before);
+    const named = parts.flatMap((part) => [Buffer.from(part), Buffer.from(bytes)]).slice(0, -1);
+    const file = join(folder, `${encoding}.xml`);
+    writeFileSync(file, Buffer.concat([Buffer.from(head), ...named]));
+    return file;
+  });
+}
+
 /** Real files of the formats: the smaller ones, as the command of tests is not optimized. */
 function realFiles() {
   const all = resolve("../shared/layouts");
@@ -69,7 +87,7 @@ async function picturesAreThoseOfTheCommand() {
   const arrow = join(folder, "site.arrow");
   guideway("convert", site, arrow, "--quiet");
   const page = await open(pageUrl);
-  for (const file of [site, arrow, ...realFiles()]) {
+  for (const file of [site, arrow, ...encodedFiles(), ...realFiles()]) {
     await load(page, file);
     const size = { width: 640, height: 400 };
     const expected = join(folder, "expected.png");
@@ -97,7 +115,20 @@ async function picturesAreThoseOfTheCommand() {
 
 async function refusedFilesAreRefusedInTheWordsOfTheCommand() {
   const page = await open(pageUrl);
-  const cases = { "empty.json": "", "cut.lif.json": '{"layouts": [', "notes.txt": "hello" };
+  const encoded = (name, bytes) => {
+    const head = Buffer.from(`<?xml version="1.0" encoding="${name}"?><model name="`);
+    return Buffer.concat([head, Buffer.from(bytes), Buffer.from('"/>')]);
+  };
+  const cases = {
+    "empty.json": "",
+    "cut.lif.json": '{"layouts": [',
+    "notes.txt": "hello",
+    // Half a letter before one of ASCII, bytes of no letter, and an encoding of nobody.
+    "half.xml": encoded("GBK", [0xbb, 0xf5, 0xbb, 0x22]),
+    "none.xml": encoded("shift-jis", [0x92, 0xca, 0xff, 0xff]),
+    "alone.xml": encoded("windows-1253", [0x41, 0xd2]),
+    "unknown.xml": encoded("klingon", [0x41]),
+  };
   for (const [name, text] of Object.entries(cases)) {
     const file = join(folder, name);
     writeFileSync(file, text);
