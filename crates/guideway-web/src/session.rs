@@ -67,7 +67,8 @@ pub struct Saved {
 }
 
 impl Session {
-    /// Opens a file, whose bytes stay outside; the content decides the format. Error texts call it `name`.
+    /// Opens a file, whose bytes stay outside; the content decides the format. Error texts call it
+    /// `name`.
     /// The finished share goes to `progress`.
     ///
     /// # Errors

@@ -33,18 +33,53 @@ impl Binaries {
     }
 }
 
-/// The profile of the programs that users get.
+/// The profile of the command, whose panics end it.
 pub const PROFILE: &str = "dist";
+/// The profile of the window and of the C library, which go on after a panic.
+pub const UNWINDING_PROFILE: &str = "dist-unwinding";
+
+/// Arguments of cargo that build the command. The last optimization, of all crates together, is
+/// that of its last crate.
+pub const COMMAND: [&str; 7] = [
+    "rustc",
+    "--package=guideway",
+    "--bin=guideway",
+    "--features=gpu,gl",
+    "--profile=dist",
+    "--",
+    "-Copt-level=3",
+];
+
+/// Arguments of cargo that build the window.
+pub const WINDOW: [&str; 3] = [
+    "build",
+    "--package=guideway-window",
+    "--profile=dist-unwinding",
+];
+
+/// Flags of the C compiler that leave out what no level of compression in use needs of zstd.
+pub const ZSTD_FLAGS: &str = "-DZSTD_EXCLUDE_GREEDY_BLOCK_COMPRESSOR \
+     -DZSTD_EXCLUDE_LAZY_BLOCK_COMPRESSOR -DZSTD_EXCLUDE_LAZY2_BLOCK_COMPRESSOR \
+     -DZSTD_EXCLUDE_BTLAZY2_BLOCK_COMPRESSOR -DZSTD_EXCLUDE_BTOPT_BLOCK_COMPRESSOR \
+     -DZSTD_EXCLUDE_BTULTRA_BLOCK_COMPRESSOR";
 
 /// Builds command and window, optimized and stripped, with all methods.
 ///
 /// # Errors
 /// When cargo fails.
 pub fn release(top: &Path) -> Result<Binaries> {
-    let packages = ["--package", "guideway", "--package", "guideway-window"];
-    let features = ["--features", "guideway/gpu,guideway/gl"];
-    let folder = build(top, &[&["build"], &packages[..], &features].concat())?;
-    Ok(Binaries::in_folder(&folder))
+    let script = top.join("packaging/no-unwinding.ld");
+    let script = format!("-Clink-arg=-Wl,-T,{}", script.display());
+    // The linkers of other systems know no such script, and the tables stay.
+    let tables: &[&str] = match cfg!(target_os = "linux") {
+        true => &[&script, "-Clink-arg=-Wl,--no-eh-frame-hdr"],
+        false => &[],
+    };
+    let folder = build(top, &[&COMMAND, tables].concat(), PROFILE)?;
+    let command = Binaries::in_folder(&folder).command;
+    let folder = build(top, &WINDOW, UNWINDING_PROFILE)?;
+    let window = Binaries::in_folder(&folder).window;
+    Ok(Binaries { command, window })
 }
 
 /// Builds the C library, optimized.
@@ -52,29 +87,34 @@ pub fn release(top: &Path) -> Result<Binaries> {
 /// # Errors
 /// When cargo fails.
 pub fn release_library(top: &Path) -> Result<Library> {
-    let types = ["--crate-type", "cdylib,staticlib"];
-    let folder = build(
-        top,
-        &[&["rustc", "--package", "guideway-c"], &types[..]].concat(),
-    )?;
+    let library = [
+        "rustc",
+        "--package=guideway-c",
+        "--crate-type=cdylib,staticlib",
+        "--profile=dist-unwinding",
+    ];
+    let folder = build(top, &library, UNWINDING_PROFILE)?;
     Ok(Library::in_folder(&folder))
 }
 
 /// Runs a task of cargo's and returns the folder of what it built.
-fn build(top: &Path, task: &[&str]) -> Result<PathBuf> {
+fn build(top: &Path, task: &[&str], profile: &str) -> Result<PathBuf> {
     let target = top.join("target").join("dist");
+    let (task, rest) = task.split_at(1);
     let built = Command::new(env!("CARGO"))
         .args(task)
-        .args(["--profile", PROFILE, "--locked"])
+        .arg("--locked")
+        .args(rest)
         .current_dir(top)
         .env("CARGO_TARGET_DIR", &target)
+        .env("CFLAGS", ZSTD_FLAGS)
         .env("RUSTFLAGS", remapped_paths(top)?)
         .status()
         .context("cannot start cargo")?;
     if !built.success() {
         bail!("the release build failed: {built}");
     }
-    Ok(target.join(PROFILE))
+    Ok(target.join(profile))
 }
 
 /// Compiler flags by which messages of panics name files without the folders of this machine.

@@ -21,7 +21,10 @@ mod sbom;
 mod tree;
 mod windows;
 
-pub use build::{Binaries, PROFILE, release, release_library, remapped_paths};
+pub use build::{
+    Binaries, COMMAND, PROFILE, UNWINDING_PROFILE, WINDOW, ZSTD_FLAGS, release, release_library,
+    remapped_paths,
+};
 pub use dependencies::{Dependency, dependencies};
 pub use library::{Library, stage_library};
 pub use licenses::notices;

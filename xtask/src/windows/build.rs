@@ -1,7 +1,7 @@
 //! Cross-compiles command and window by MinGW-w64, with a standard library built for it.
 
 use anyhow::{Result, bail};
-use xtask::dist::{Binaries, PROFILE, WINDOWS};
+use xtask::dist::{Binaries, COMMAND, PROFILE, UNWINDING_PROFILE, WINDOW, WINDOWS, ZSTD_FLAGS};
 
 use crate::debian_rust::DebianRust;
 use crate::prerequisites::apt_install;
@@ -22,11 +22,28 @@ pub(super) enum Profile {
     Quick,
 }
 
+/// Arguments of cargo, its profile, and the crates of the standard library.
+type Build = (&'static [&'static str], &'static str, &'static str);
+
+/// Both programs at once.
+const QUICK: [&str; 5] = [
+    "build",
+    "--package=guideway",
+    "--package=guideway-window",
+    "--features=guideway/gpu,guideway/gl",
+    "--profile=quick",
+];
+
 impl Profile {
-    fn name(self) -> &'static str {
+    /// The builds of the command and of the window.
+    fn builds(self) -> [Build; 2] {
+        let quick: Build = (&QUICK, "quick", "-Zbuild-std=std,panic_unwind");
         match self {
-            Self::Release => PROFILE,
-            Self::Quick => "quick",
+            Self::Release => [
+                (&COMMAND, PROFILE, "-Zbuild-std=std,panic_abort"),
+                (&WINDOW, UNWINDING_PROFILE, "-Zbuild-std=std,panic_unwind"),
+            ],
+            Self::Quick => [quick, quick],
         }
     }
 }
@@ -41,17 +58,26 @@ pub(super) fn programs(profile: Profile) -> Result<Binaries> {
     }
     heading("programs for Windows");
     let cargo = std::env::current_dir()?.join(FOLDER).join("cargo");
-    rust.cargo(&["build", "--locked", "--profile", profile.name()])
-        .args(["--package", "guideway", "--package", "guideway-window"])
-        .args(["--features", "guideway/gpu,guideway/gl"])
-        .args(["--target", WINDOWS, "-Zbuild-std=std,panic_unwind"])
-        .env("CARGO_TARGET_DIR", &cargo)
-        .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", tool("gcc"))
-        .env("CC_x86_64_pc_windows_gnu", tool("gcc"))
-        .env("AR_x86_64_pc_windows_gnu", tool("ar"))
-        .env("RUSTFLAGS", rust.remapped_paths()?)
-        .run()?;
-    let binaries = Binaries::with_suffix(&cargo.join(WINDOWS).join(profile.name()), ".exe");
+    let build = |(task, profile, std): Build| {
+        let (task, rest) = task.split_at(1);
+        rust.cargo(task)
+            .args(["--locked", "--target", WINDOWS, std])
+            .args(rest)
+            .env("CARGO_TARGET_DIR", &cargo)
+            .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", tool("gcc"))
+            .env("CC_x86_64_pc_windows_gnu", tool("gcc"))
+            .env("AR_x86_64_pc_windows_gnu", tool("ar"))
+            .env("CFLAGS_x86_64_pc_windows_gnu", ZSTD_FLAGS)
+            .env("RUSTFLAGS", rust.remapped_paths()?)
+            .run()?;
+        let folder = cargo.join(WINDOWS).join(profile);
+        anyhow::Ok(Binaries::with_suffix(&folder, ".exe"))
+    };
+    let [command_build, window_build] = profile.builds();
+    let binaries = Binaries {
+        command: build(command_build)?.command,
+        window: build(window_build)?.window,
+    };
     for program in [&binaries.command, &binaries.window] {
         let headers = command(tool("objdump")).args(["-p".as_ref(), program.as_os_str()]);
         let headers = headers.capture()?.stdout;

@@ -76,6 +76,8 @@ mod written_curves;
 pub use arrow_array::{RecordBatch, RecordBatchIterator, RecordBatchReader};
 
 pub use self::batches::{Batches, batches, collected_batches};
+#[cfg(panic = "abort")]
+pub use self::catch_decode_panic::decode_panic;
 pub(crate) use self::read::read;
 pub use self::read_batches::read_batches;
 pub use self::write::ArrowWriter;

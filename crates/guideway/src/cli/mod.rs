@@ -7,7 +7,7 @@
 //! | `app`, `start` | parse arguments, dispatch to a subcommand, exit |
 //! | `input`, `floor_plan`, `envelope`, `number_args`, `values`, `limits` | read arguments and files |
 //! | `layout_output`, `picture_file`, `picture_output` | outputs: layouts, names of pictures, pictures |
-//! | `output`, `stdout`, `text`, `colors`, `progress_bar`, `error`, `process` | reports, errors, exit codes, threads and signals |
+//! | `output`, `stdout`, `text`, `colors`, `progress_bar`, `error`, `process`, `panic` | reports, errors, exit codes, threads and signals |
 //! | all others | one subcommand each |
 
 mod app;
@@ -32,6 +32,8 @@ mod methods;
 mod network;
 mod number_args;
 mod output;
+#[cfg(panic = "abort")]
+mod panic;
 mod part_progress;
 mod picture_file;
 mod picture_output;

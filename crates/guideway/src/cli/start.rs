@@ -66,6 +66,8 @@ pub(super) fn run(
 ) -> ExitCode {
     options.color.apply();
     let out = Output::new(options.json, options.quiet);
+    #[cfg(panic = "abort")]
+    super::panic::end_by_panic(out);
     if options.json {
         out_of_memory::report_as_json();
     }
