@@ -31,7 +31,7 @@ use crate::compare::Changed;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::{Layer, OpenFiles};
-use crate::language::t;
+use crate::language::{t, translated};
 use crate::network_draft::Drafted;
 use crate::route::FoundRoute;
 use crate::tools::{Gesture, OtherHit, Tool, ToolContext, Tools};
@@ -72,7 +72,7 @@ pub(crate) fn shown_colors<'a>(
 }
 
 /// A legend with its title in the language of the window, if the title is not a name of the file.
-fn translated(legend: &Legend) -> Cow<'_, Legend> {
+fn titled(legend: &Legend) -> Cow<'_, Legend> {
     let title = t(&legend.column);
     match title == legend.column {
         true => Cow::Borrowed(legend),
@@ -115,7 +115,7 @@ impl CanvasPainter<'_> {
         let colors = shown_colors(self.files, self.settings);
         let corner = Corner::UpperLeft;
         let colors = colors.and_then(|colors| {
-            let colors = translated(colors);
+            let colors = titled(colors);
             legend(&colors, self.view.size(), 0.0, corner, &style)
         });
         if let Some((colors, _)) = colors {
@@ -331,7 +331,7 @@ impl CanvasPainter<'_> {
         let layers = self.files.layers();
         let errors = layers.iter().filter_map(|layer| {
             let error = layer.error()?;
-            Some(format!("{}: {error}", layer.name()))
+            Some(format!("{}: {}", layer.name(), translated(error)))
         });
         let width = (self.screen.rect.width() - 32.0).max(50.0);
         let mut at: Pos2 = self.screen.rect.center_top() + Vec2::new(0.0, 40.0);

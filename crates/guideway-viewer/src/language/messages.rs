@@ -3,12 +3,16 @@
 //! They arrive in English with their values. A line of `messages.tsv` has the form of such a text,
 //! with names in braces in place of the values, and its German form; `message_parts.tsv` has the
 //! forms of values that are texts themselves. A value `{more?}` is absent or one of these, and
-//! `{~more}` stands for its German form.
+//! `{~more}` stands for its German form. Of several messages that fit, the one with the most
+//! letters of its own counts, of several parts the first.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
+use std::cmp::Reverse;
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::{GERMAN_NOUNS, Language, counted, language, t};
+use super::{GERMAN, GERMAN_NOUNS, Language, counted, language};
 
 /// An English form and its German one.
 struct Form {
@@ -25,6 +29,8 @@ enum Piece {
 enum ValueKind {
     /// Any text, the same in both languages.
     Plain,
+    /// As `Plain`, and may be empty.
+    Quoted,
     /// In English: absent, or a known part.
     Optional,
     /// In German: translated in turn.
@@ -34,19 +40,76 @@ enum ValueKind {
 /// Values by their names.
 type Values<'t> = Vec<(&'static str, &'t str)>;
 
-static MESSAGES: LazyLock<Vec<Form>> = LazyLock::new(|| forms(include_str!("messages.tsv")));
+/// Those with the most letters of their own first.
+static MESSAGES: LazyLock<Vec<Form>> = LazyLock::new(|| {
+    let mut forms = forms(include_str!("messages.tsv"));
+    forms.sort_by_key(|form| Reverse(form.letters()));
+    forms
+});
 static PARTS: LazyLock<Vec<Form>> = LazyLock::new(|| forms(include_str!("message_parts.tsv")));
+
+/// Most texts that are kept translated: more than a window shows at once.
+const MAX_KEPT: usize = 4_096;
+
+thread_local! {
+    /// German texts by the English ones: a text is shown in many frames.
+    static KEPT: RefCell<HashMap<String, String>> = RefCell::default();
+}
 
 /// A text of another crate in the language of this thread; in English if no form fits it.
 pub(crate) fn translated(english: &str) -> Cow<'_, str> {
     match language() {
         Language::English => english.into(),
-        Language::German => {
-            let known = by_forms(&MESSAGES, english).or_else(|| by_forms(&PARTS, english));
-            let known = known.or_else(|| count_of_things(english));
-            known.map_or_else(|| t(english).into(), Cow::Owned)
-        }
+        Language::German => kept(english).into(),
     }
+}
+
+/// The German text, from those that are kept if it is there.
+fn kept(english: &str) -> String {
+    if let Some(known) = KEPT.with_borrow(|kept| kept.get(english).cloned()) {
+        return known;
+    }
+    let text = german(english);
+    KEPT.with_borrow_mut(|kept| {
+        if kept.len() >= MAX_KEPT {
+            kept.clear();
+        }
+        kept.insert(english.to_owned(), text.clone());
+    });
+    text
+}
+
+fn german(english: &str) -> String {
+    by_message(english)
+        .or_else(|| sentences(english))
+        .or_else(|| by_part(english))
+        .or_else(|| count_of_things(english))
+        .or_else(|| GERMAN.get(english).map(|&text| text.to_owned()))
+        .or_else(|| parts(english, ": "))
+        .unwrap_or_else(|| english.to_owned())
+}
+
+/// An error as `message. Remedy`, or as `place: message` with a known message.
+fn sentences(english: &str) -> Option<String> {
+    parts(english, ". ").or_else(|| {
+        let (_, after) = english.split_at_checked(end_of_part(english, ": ")? + 2)?;
+        by_message(after)?;
+        parts(english, ": ")
+    })
+}
+
+/// Two parts with this sign between them, each translated by itself.
+fn parts(english: &str, sign: &str) -> Option<String> {
+    let (before, after) = english.split_at(end_of_part(english, sign)?);
+    let after = translated(&after[sign.len()..]);
+    Some(format!("{}{sign}{after}", translated(before)))
+}
+
+/// The end of the part of a text before a sign outside of quotes.
+fn end_of_part(text: &str, sign: &str) -> Option<usize> {
+    let is_quoted = |end: usize| text[..end].matches(['"', '`']).count() % 2 == 1;
+    let mut ends = text.match_indices(sign).map(|(end, _)| end);
+    ends.find(|&end| !is_quoted(end))
 }
 
 /// `3 paths` in the language of this thread.
@@ -61,15 +124,38 @@ fn count_of_things(english: &str) -> Option<String> {
     Some(counted(count, noun))
 }
 
-fn by_forms(forms: &[Form], english: &str) -> Option<String> {
-    forms.iter().find_map(|form| {
-        let mut values = Values::new();
-        let fits = take_values(&form.english, english, &mut values);
-        fits.then(|| form.fill(&values))
+/// A message by its form. A value at its start is no more than one part of an error.
+fn by_message(english: &str) -> Option<String> {
+    MESSAGES.iter().find_map(|form| {
+        let values = form.values_of(english)?;
+        let is_long = |value: &str| [": ", ". "].iter().any(|s| end_of_part(value, s).is_some());
+        let starts_with_value = matches!(form.english.first(), Some(Piece::Value { .. }));
+        let is_whole = !starts_with_value || !is_long(values.first()?.1);
+        is_whole.then(|| form.fill(&values))
     })
 }
 
+fn by_part(english: &str) -> Option<String> {
+    let fitting = |form: &Form| Some(form.fill(&form.values_of(english)?));
+    PARTS.iter().find_map(fitting)
+}
+
 impl Form {
+    /// Letters of the English form, without values.
+    fn letters(&self) -> usize {
+        let letters = self.english.iter().map(|piece| match piece {
+            Piece::Text(text) => text.len(),
+            Piece::Value { .. } => 0,
+        });
+        letters.sum()
+    }
+
+    /// The values of a text of this form.
+    fn values_of<'t>(&self, text: &'t str) -> Option<Values<'t>> {
+        let mut values = Values::new();
+        take_values(&self.english, text, &mut values).then_some(values)
+    }
+
     fn fill(&self, values: &Values<'_>) -> String {
         let mut text = String::new();
         for piece in &self.german {
@@ -80,7 +166,9 @@ impl Form {
                     let value = value.map_or("", |(_, value)| *value);
                     match kind {
                         ValueKind::Translated => text += &translated(value),
-                        ValueKind::Plain | ValueKind::Optional => text += value,
+                        ValueKind::Plain | ValueKind::Optional | ValueKind::Quoted => {
+                            text += value;
+                        }
                     }
                 }
             }
@@ -100,7 +188,8 @@ fn take_values<'t>(form: &[Piece], text: &'t str, values: &mut Values<'t>) -> bo
         [Piece::Value { name, kind }, rest @ ..] => ends(rest, text).into_iter().any(|end| {
             let (value, after) = text.split_at(end);
             let is_allowed = match kind {
-                ValueKind::Optional => value.is_empty() || by_forms(&PARTS, value).is_some(),
+                ValueKind::Optional => value.is_empty() || by_part(value).is_some(),
+                ValueKind::Quoted => true,
                 ValueKind::Plain | ValueKind::Translated => !value.is_empty(),
             };
             let known = values.len();
@@ -143,6 +232,7 @@ fn pieces(form: &'static str) -> Vec<Piece> {
         let (name, kind) = match (name.strip_suffix('?'), name.strip_prefix('~')) {
             (Some(name), _) => (name, ValueKind::Optional),
             (_, Some(name)) => (name, ValueKind::Translated),
+            _ if before.ends_with(['"', '`']) => (name, ValueKind::Quoted),
             _ => (name, ValueKind::Plain),
         };
         pieces.push(Piece::Text(before));
@@ -155,142 +245,4 @@ fn pieces(form: &'static str) -> Vec<Piece> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::fs;
-    use std::path::{Path, PathBuf};
-
-    use super::*;
-    use crate::language::set_language;
-
-    fn german(english: &str) -> String {
-        set_language(Language::German);
-        let german = translated(english).into_owned();
-        set_language(Language::English);
-        german
-    }
-
-    #[test]
-    fn values_move_into_the_german_text() {
-        for (english, expected) in [
-            (
-                "vehicles can enter this part of 1,020 nodes, but not leave it, for vehicle \
-                 types \"tug\", \"fork\" and 3 more",
-                "Fahrzeuge kommen in diesen Teil (1.020 Knoten), aber nicht heraus, für \
-                 Fahrzeugtyp \"tug\", \"fork\" und 3 weiteren",
-            ),
-            (
-                "gap of 0.250 m at (1.000, 2.000) m, and at 3 other places",
-                "Lücke von 0.250 m bei (1.000, 2.000) m, und an 3 weiteren Stellen",
-            ),
-            (
-                "gap of 0.250 m at (1.000, 2.000) m",
-                "Lücke von 0.250 m bei (1.000, 2.000) m",
-            ),
-            (
-                "has the curve of path \"a and b\"; they differ in maxSpeed: 1 and 0.5 m/s; \
-                 direction: two-way and one-way; and 2 other properties",
-                "hat die Kurve von Weg „a and b“; verschieden sind maxSpeed: 1 und 0.5 m/s; \
-                 Richtung: beide Richtungen und Einbahn; und 2 weitere Eigenschaften",
-            ),
-            ("path \"none\" (line 7)", "Weg „none“ (Zeile 7)"),
-            ("Rename it to none", "In none umbenennen"),
-            (
-                "left: 2 lines drawn twice",
-                "ausgelassen: 2 Linien, doppelt gezeichnet",
-            ),
-            ("of no known form", "of no known form"),
-        ] {
-            assert_eq!(german(english), expected);
-            assert_eq!(translated(english), english);
-        }
-    }
-
-    #[test]
-    fn german_forms_have_no_value_that_the_english_ones_lack() {
-        let name = |piece: &Piece| match piece {
-            Piece::Value { name, .. } => Some(*name),
-            Piece::Text(_) => None,
-        };
-        for form in MESSAGES.iter().chain(PARTS.iter()) {
-            let known: Vec<&str> = form.english.iter().filter_map(name).collect();
-            let is_known = |name: &str| known.contains(&name);
-            assert!(
-                form.german.iter().filter_map(name).all(is_known),
-                "{known:?}"
-            );
-        }
-    }
-
-    /// A text with `{}` in place of each value.
-    fn without_names(text: &str) -> String {
-        let mut parts = text.split('{');
-        let first = parts.next().unwrap_or_default().to_owned();
-        parts.fold(first, |text, part| {
-            text + "{}" + part.split_once('}').map_or("", |(_, after)| after)
-        })
-    }
-
-    /// The texts of a source file: literals of several words, or with values and words.
-    fn texts(file: &Path) -> Vec<String> {
-        let source = fs::read_to_string(file).unwrap();
-        let code = source.split("#[cfg(test)]").next().unwrap();
-        let is_code = |line: &&str| !line.trim_start().starts_with("//");
-        let lines = code.lines().filter(is_code).map(str::trim_start);
-        let code = lines.collect::<Vec<_>>().join("\n").replace("\\\n", "");
-        let code = code.replace("'\"'", "").replace("\\\"", "\u{1}");
-        let literals = code.split('"').skip(1).step_by(2);
-        let is_text = |text: &String| {
-            let has_word = text.split("{}").any(|part| {
-                let is_small = |c: &u8| c.is_ascii_lowercase();
-                part.as_bytes()
-                    .array_windows()
-                    .any(|[a, b]| is_small(a) && is_small(b))
-            });
-            has_word && (text.contains(' ') || text.contains('{'))
-        };
-        let literals = literals.map(|text| without_names(text).replace('\u{1}', "\""));
-        literals.filter(is_text).collect()
-    }
-
-    #[test]
-    fn each_text_of_findings_reports_and_edits_has_a_german_form() {
-        let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let folders = [
-            "guideway-layout/src/check",
-            "guideway-network/src/analyze",
-            "guideway-document/src/fixes",
-        ];
-        let mut files: Vec<PathBuf> = folders
-            .iter()
-            .flat_map(|folder| fs::read_dir(crates.join(folder)).unwrap())
-            .map(|entry| entry.unwrap().path())
-            .collect();
-        let single = [
-            "guideway-layout/src/place.rs",
-            "guideway-layout/src/property.rs",
-            "guideway-network/src/build/error.rs",
-            "guideway-network/src/build/report.rs",
-            "guideway-network/src/route/error.rs",
-            "guideway-network/src/route/rows.rs",
-            "guideway-document/src/edit/error.rs",
-            "guideway-document/src/edit/property_value.rs",
-            "guideway-document/src/edit/shapes/error.rs",
-            "guideway-document/src/query/parse.rs",
-            "guideway-scene/src/edit/error.rs",
-            "guideway-spline/src/construct/error.rs",
-        ];
-        files.extend(single.map(|file| crates.join(file)));
-        let tables = [
-            include_str!("messages.tsv"),
-            include_str!("message_parts.tsv"),
-        ];
-        let forms = tables.iter().flat_map(|table| table.lines());
-        let forms = forms.filter_map(|line| line.split_once('\t'));
-        let forms: Vec<String> = forms.map(|(form, _)| without_names(form)).collect();
-        let texts: Vec<String> = files.iter().flat_map(|file| texts(file)).collect();
-        assert!(texts.len() > 200, "{}", texts.len());
-        let is_missing = |text: &&String| !forms.iter().any(|form| form.contains(&***text));
-        let missing: Vec<&String> = texts.iter().filter(is_missing).collect();
-        assert!(missing.is_empty(), "without a German form: {missing:#?}");
-    }
-}
+mod tests;

@@ -7,7 +7,7 @@ use crate::action::Action;
 use crate::backdrop::SweptAreasLayer;
 use crate::display_settings::{DisplaySettings, MAX_WIDTH_M, MIN_PX_RANGE};
 use crate::files::OpenFiles;
-use crate::language::t;
+use crate::language::{t, translated};
 
 /// Columns that color every layout, beside its attributes.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
@@ -57,7 +57,7 @@ pub(super) fn show(
     ui.add(TextEdit::singleline(&mut swept_areas.vehicle_text))
         .labelled_by(label.id);
     if let Some(error) = swept_areas.error() {
-        ui.colored_label(ui.visuals().error_fg_color, error);
+        ui.colored_label(ui.visuals().error_fg_color, translated(error));
     }
     if before.theme != settings.theme {
         actions.push(Action::ApplyTheme);

@@ -3,6 +3,7 @@
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use guideway_document::SelectMode;
+use guideway_formats::ReadOptions;
 use guideway_layout::Layout;
 use guideway_spline::Point;
 
@@ -10,7 +11,7 @@ use super::lane_network::network;
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::command::Command;
-use crate::language::Language;
+use crate::language::{Language, set_language, translated};
 use crate::panels::SideTab;
 
 /// Words that no German text of the window has.
@@ -20,6 +21,21 @@ const ENGLISH: &[&str] = &[
     "reach", "the", "they", "this", "to", "vehicles", "with", "without",
 ];
 
+/// Returns `true` if a text has an English word outside of quotes, in which names of files are.
+fn is_english(text: &str) -> bool {
+    let own = text.split(['\u{201e}', '\u{201c}', '"']).step_by(2);
+    let words = own.flat_map(str::split_whitespace);
+    // Places in files are in no language.
+    let words = words.filter(|word| {
+        !word
+            .trim_end_matches('.')
+            .contains(['[', '.', '_', '-', '\'', '&'])
+    });
+    words
+        .flat_map(|word| word.split(|c: char| !c.is_alphabetic()))
+        .any(|word| ENGLISH.contains(&word))
+}
+
 /// The texts of the window that have an English word.
 fn english(window: &TestWindow) -> Vec<String> {
     let nodes = window.harness.root().children_recursive();
@@ -27,13 +43,8 @@ fn english(window: &TestWindow) -> Vec<String> {
         let node = node.accesskit_node();
         [node.label(), node.value(), node.description()]
     });
-    let is_english = |text: &String| {
-        // Names from files are in quotes.
-        let own = text.split(['\u{201e}', '\u{201c}', '"']).step_by(2);
-        own.flat_map(|part| part.split(|c: char| !c.is_alphabetic()))
-            .any(|word| ENGLISH.contains(&word))
-    };
-    let mut found: Vec<String> = texts.flatten().filter(is_english).collect();
+    let texts = texts.flatten().filter(|text| is_english(text));
+    let mut found: Vec<String> = texts.collect();
     found.sort_unstable();
     found.dedup();
     found
@@ -93,6 +104,60 @@ fn findings_and_their_fixes_are_german() {
     drop(fixes);
     window.harness.run_steps(3);
     assert_eq!(english(&window), [""; 0]);
+}
+
+/// Reads the damaged and odd files of all formats, with all that is found.
+#[test]
+fn findings_and_errors_of_files_are_german() {
+    let formats = [
+        "any",
+        "arrow",
+        "dxf",
+        "geojson",
+        "lanelet2",
+        "lif",
+        "opendrive",
+        "opentcs",
+        "rmf",
+        "svg",
+        "vda5050",
+    ];
+    set_language(Language::German);
+    let (mut texts, mut english) = (0, Vec::new());
+    let mut look_at = |text: String| {
+        texts += 1;
+        let german = translated(&text);
+        // The library of Arrow has texts of its own.
+        let is_arrow = ["argument error", "Ipc error", "Type `i"]
+            .iter()
+            .any(|s| text.contains(s));
+        if is_english(&german) && !is_arrow {
+            english.push(format!("{text} -> {german}"));
+        }
+    };
+    for format in formats {
+        for (name, bytes) in guideway_bad_files::inputs(format).unwrap().iter() {
+            match guideway_formats::read_bytes(name, bytes, &ReadOptions::default()) {
+                Ok(layout) => {
+                    for finding in layout.diagnostics.iter() {
+                        look_at(finding.place.to_string());
+                        look_at(finding.message.clone());
+                        look_at(finding.remedy.to_string());
+                    }
+                }
+                Err(error) => look_at(error.to_string()),
+            }
+        }
+    }
+    set_language(Language::English);
+    assert!(texts > 1_000, "{texts}");
+    english.sort_unstable();
+    english.dedup();
+    assert!(
+        english.is_empty(),
+        "{} of {texts}: {english:#?}",
+        english.len()
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use guideway_spline::Point;
 use crate::action::Action;
 use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanPlacement, PlanSize, PlanTask};
 use crate::command::Command;
-use crate::language::t;
+use crate::language::{t, translated};
 
 /// Range of the pixels per meter of an image, and of the scale of a drawing.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
@@ -56,7 +56,7 @@ fn content(
     actions: &mut Vec<Action>,
 ) {
     if let Some(error) = plan.error() {
-        ui.colored_label(ui.visuals().error_fg_color, error);
+        ui.colored_label(ui.visuals().error_fg_color, translated(error));
     }
     match plan.placement() {
         Some(placement) => {

@@ -7,7 +7,7 @@ use guideway_layout::shown_path;
 
 use crate::action::Action;
 use crate::command::Command;
-use crate::language::{counted, say, t};
+use crate::language::{counted, say, t, translated};
 use crate::services::LostPart;
 
 /// Most names of one line; the rest is counted.
@@ -89,7 +89,7 @@ fn grouped(losses: &[LostPart]) -> Vec<String> {
                 more = counted(more as u64, "more column")
             ));
         }
-        format!("• {detail}: {}", items.join(", "))
+        format!("• {}: {}", translated(detail), items.join(", "))
     };
     lines.into_iter().map(line).collect()
 }
