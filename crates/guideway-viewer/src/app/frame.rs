@@ -85,10 +85,14 @@ impl App {
             let most = (ui.available_height() - MIN_CANVAS_HEIGHT).max(MIN_BOTTOM_HEIGHT);
             let bottom = Panel::bottom("tables").resizable(true);
             let bottom = bottom.default_size(BOTTOM_HEIGHT);
+            let driven = self.bottom.route.driven;
             bottom.size_range(MIN_BOTTOM_HEIGHT..=most).show(ui, |ui| {
                 let actions = self.bottom.show(ui, &self.files, &self.context.repaint);
                 self.apply_all(actions, &ctx);
             });
+            if self.bottom.route.driven != driven {
+                self.follow_vehicle();
+            }
         }
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
             self.show_canvas(ui);

@@ -88,6 +88,17 @@ impl App {
         Some((found.ok()?, route.driven))
     }
 
+    /// Keeps the vehicle in sight that the slider has moved along the route.
+    pub(super) fn follow_vehicle(&mut self) {
+        let pose = self.shown_route().and_then(|(route, driven)| {
+            let along_m = f64::from(driven) * route.track.length_m();
+            route.track.pose(along_m)
+        });
+        if let Some((at_m, _)) = pose {
+            self.canvas.camera.bring_into_view(at_m);
+        }
+    }
+
     /// The other document of the comparison, and the changes to draw.
     pub(super) fn shown_changes(&self) -> Option<(&Document, &Changed)> {
         let is_open = self.bottom.view == Some(BottomView::Compare);

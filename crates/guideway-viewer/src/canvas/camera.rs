@@ -31,6 +31,9 @@ struct FilesFit {
 /// Least extent shown by [`Camera::zoom_to`], in meters: about two vehicle lengths.
 const MIN_EXTENT_M: f64 = 5.0;
 
+/// Least distance of a followed point from the edges, as a part of the shorter side.
+const FOLLOW_MARGIN: f64 = 0.15;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Position {
     center_m: Point<f64>,
@@ -120,6 +123,23 @@ impl Camera {
             center_m: self.position.center_m + by_m,
             ..self.position
         });
+    }
+
+    /// Moves the view as little as shows a point with some surroundings.
+    pub(crate) fn bring_into_view(&mut self, at_m: Point<f64>) {
+        let Some(view) = self.view() else {
+            return;
+        };
+        let [width, height] = [view.size().width(), view.size().height()].map(f64::from);
+        let margin = FOLLOW_MARGIN * width.min(height);
+        let at = view.pixel_from_world(at_m);
+        let inside = Point::new(
+            at.x.clamp(margin, width - margin),
+            at.y.clamp(margin, height - margin),
+        );
+        if inside != at {
+            self.pan(inside - at);
+        }
     }
 
     /// Scales the view about `at_px`, whose world position stays.
@@ -253,6 +273,23 @@ mod tests {
         camera.pan(Point::new(30.0, -20.0));
         let pixel = camera.view().unwrap().pixel_from_world(world);
         assert!(pixel.distance(Point::new(130.0, 80.0)) < 1e-9);
+    }
+
+    #[test]
+    fn point_out_of_sight_is_brought_into_view_at_the_same_scale() {
+        let mut camera = camera();
+        let scale = camera.view().unwrap().px_per_m();
+        let seen = camera
+            .view()
+            .unwrap()
+            .world_from_pixel(Point::new(400.0, 200.0));
+        camera.bring_into_view(seen);
+        assert_eq!(camera.view().unwrap().center_m(), Point::new(0.0, 0.0));
+        camera.bring_into_view(Point::new(1000.0, 0.0));
+        let view = camera.view().unwrap();
+        let at = view.pixel_from_world(Point::new(1000.0, 0.0));
+        assert!(at.distance(Point::new(710.0, 300.0)) < 1e-6, "{at:?}");
+        assert_eq!(view.px_per_m(), scale);
     }
 
     #[test]

@@ -3,17 +3,18 @@
 use std::path::Path;
 
 use eframe::egui::collapsing_header::CollapsingState;
-use eframe::egui::{Align, Button, Color32, Id, Label, Layout, RichText, Slider, Ui};
+use eframe::egui::{Align, Button, Color32, Id, Label, Layout, RichText, Ui};
 use guideway_document::Document;
 use guideway_layout::shown_path;
 use guideway_scene::{Rgba, Table};
 
 use super::group_list;
+use super::slider::slider;
 use crate::action::Action;
 use crate::backdrop::FloorPlanLayer;
 use crate::display_settings::DisplaySettings;
 use crate::files::{Layer, LayerLook, OpenFiles};
-use crate::language::{counted, t};
+use crate::language::{counted, t, translated};
 
 /// Shows the tab.
 pub(super) fn show(
@@ -120,8 +121,7 @@ impl LayerRow {
             }
         });
         ui.horizontal(|ui| {
-            let slider = Slider::new(&mut look.opacity, 0.0..=1.0).show_value(false);
-            ui.add(slider).on_hover_text(t("Opacity of the paths"));
+            slider(ui, &mut look.opacity).on_hover_text(t("Opacity of the paths"));
             show_color(ui, look, settings);
         });
         if let Some(document) = layer.document() {
@@ -198,7 +198,7 @@ fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
     let plan = Label::new(RichText::new(name.unwrap_or(file.into())).small());
     ui.add(plan.truncate()).on_hover_text(text);
     if let Some(error) = floor_plan.error() {
-        ui.colored_label(ui.visuals().error_fg_color, error);
+        ui.colored_label(ui.visuals().error_fg_color, translated(error));
     }
 }
 

@@ -23,6 +23,7 @@ mod render_panel;
 mod route_panel;
 mod selection_panel;
 mod side_panel;
+mod slider;
 mod status_bar;
 mod table;
 mod toolbar;

@@ -1,8 +1,9 @@
 //! The route: its places, vehicle, length, time and steps.
 
-use eframe::egui::{Button, ComboBox, Label, RichText, ScrollArea, Slider, Ui};
+use eframe::egui::{Button, ComboBox, Label, RichText, ScrollArea, Ui};
 use guideway_document::{Element, text_format};
 
+use super::slider::slider;
 use crate::action::Action;
 use crate::files::OpenFiles;
 use crate::language::{counted, say, t, translated};
@@ -51,8 +52,8 @@ pub(super) fn show(
             let mut driven = search.driven;
             ui.horizontal(|ui| {
                 ui.strong(sums);
-                let slider = Slider::new(&mut driven, 0.0..=1.0).show_value(false);
-                ui.add(slider.text(t("vehicle")));
+                let label = ui.label(t("vehicle"));
+                slider(ui, &mut driven).labelled_by(label.id);
                 ui.monospace(format!("{:.1} m", f64::from(driven) * length_m));
             });
             show_steps(ui, route, actions);

@@ -1,6 +1,7 @@
 //! The route between two clicked places, and the comparison of two files.
 
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_spline::{Point, Runs};
@@ -126,6 +127,41 @@ fn swept_area_is_that_of_the_vehicle() {
     window.harness.run_steps(2);
     let wide = area_m2(&mut window);
     assert!((wide - 12.0 * 2.0).abs() < 0.1, "{wide}");
+}
+
+#[test]
+fn click_on_the_slider_within_one_frame_moves_the_vehicle_and_the_view_follows() {
+    let mut window = TestWindow::showing(row());
+    window.key(Modifiers::SHIFT, Key::R);
+    window.key(NONE, Key::F);
+    let (start, goal) = (window.at(0.0, 0.0), window.at(20.0, 0.0));
+    window.click(start);
+    window.click(goal);
+    assert_eq!(result(&mut window), Ok((20.0, 2)));
+    // The goal is out of sight.
+    let around = Point::new(-30.0, 0.0);
+    window.app().canvas.camera.look_at(around, 20.0);
+    window.harness.run_steps(3);
+    let slider = window.harness.get_by_role(Role::Slider).rect();
+    let seen = |window: &mut TestWindow, x: f64| {
+        let view = window.app().canvas.camera.view().unwrap();
+        view.world_bounds().contains(Point::new(x, 0.0))
+    };
+    let press = |at: Pos2, pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: NONE,
+    };
+    let at = slider.lerp_inside(Vec2::new(0.75, 0.5));
+    assert!(!seen(&mut window, 15.0));
+    let events = [Event::PointerMoved(at), press(at, true), press(at, false)];
+    window.harness.input_mut().events.extend(events);
+    window.harness.step();
+    let driven = window.app().bottom.route.driven;
+    assert!((driven - 0.75).abs() < 0.05, "{driven}");
+    assert!(seen(&mut window, 15.0));
+    assert_eq!(window.app().canvas.camera.view().unwrap().px_per_m(), 20.0);
 }
 
 #[test]
