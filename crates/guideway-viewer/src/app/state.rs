@@ -107,10 +107,7 @@ impl App {
             properties: PropertiesPanel::default(),
             new_edges: NewEdgesPanel::default(),
             copied: None,
-            side: SideTabs {
-                wanted: preferences.side_panel,
-                ..SideTabs::default()
-            },
+            side: SideTabs::new(preferences.side_panel),
             bottom: BottomPanel::default(),
             other_hit: None,
             dialogs: Dialogs::default(),

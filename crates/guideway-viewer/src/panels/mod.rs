@@ -25,6 +25,7 @@ mod selection_panel;
 mod side_panel;
 mod slider;
 mod status_bar;
+mod still_part;
 mod table;
 mod toolbar;
 mod welcome;

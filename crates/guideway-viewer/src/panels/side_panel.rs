@@ -1,17 +1,20 @@
 //! The side panel: tabs with fixed places, one per part of the window.
 
 use eframe::egui::{CollapsingHeader, Rect, ScrollArea, TextWrapMode, Ui, UiBuilder};
+use guideway_document::Document;
 
 use super::findings_panel::FindingsPanel;
 use super::properties::PropertiesPanel;
+use super::still_part::StillPart;
 use super::{display_panel, find_panel, layers_panel, render_panel, selection_panel};
 use crate::action::Action;
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
 use crate::display_settings::DisplaySettings;
-use crate::files::OpenFiles;
-use crate::language::t;
+use crate::files::{Layer, OpenFiles};
+use crate::language::{Language, language, t};
 use crate::render_queue::MethodSelection;
 use crate::selection::{ExactEdit, Find};
+use crate::units::{Units, units};
 
 /// Windows narrower than this begin without the panel, in points: the drawing needs the space.
 const MIN_WINDOW_WIDTH: f32 = 700.0;
@@ -53,9 +56,29 @@ pub(crate) struct SideTabs {
     pub(crate) tab: SideTab,
     /// `None` until the user decides: then the width of the window does.
     pub(crate) wanted: Option<bool>,
+    properties: StillPart<PropertiesKey>,
+}
+
+/// All that the Properties tab shows, while no field of it is edited.
+#[derive(PartialEq)]
+struct PropertiesKey {
+    /// Index of the active file, and the revision of its document unless an edit has it.
+    file: Option<(usize, Option<u64>)>,
+    is_busy: bool,
+    exact_edit: ExactEdit,
+    language: Language,
+    units: Units,
 }
 
 impl SideTabs {
+    /// Tabs that the user wants, hides or has not decided about yet.
+    pub(crate) fn new(wanted: Option<bool>) -> Self {
+        Self {
+            wanted,
+            ..Self::default()
+        }
+    }
+
     /// Returns `true` if the panel is shown in a window of this width in points.
     pub(crate) fn is_open(&self, window_width: f32) -> bool {
         self.wanted.unwrap_or(window_width >= MIN_WINDOW_WIDTH)
@@ -134,9 +157,22 @@ impl SidePanel<'_> {
                 layers_panel::show(ui, files, plan, self.settings, actions);
             }
             SideTab::Properties => {
-                selection_panel::show(ui, self.files, self.exact_edit, actions);
-                ui.separator();
-                self.properties.show(ui, self.files, actions);
+                let key = PropertiesKey {
+                    file: self.files.active().map(|layer| {
+                        let revision = layer.document().map(Document::revision);
+                        (self.files.active_index(), revision)
+                    }),
+                    is_busy: self.files.active().is_some_and(Layer::is_busy),
+                    exact_edit: *self.exact_edit,
+                    language: language(),
+                    units: units(),
+                };
+                self.properties.stay();
+                self.tabs.properties.show(ui, key, |ui| {
+                    selection_panel::show(ui, self.files, self.exact_edit, actions);
+                    ui.separator();
+                    self.properties.show(ui, self.files, actions);
+                });
             }
             SideTab::Find => find_panel::show(ui, self.files, self.find, actions),
             SideTab::Findings => self.findings.show(ui, self.files, actions),

@@ -6,6 +6,7 @@ use guideway_spline::{Affine, Point};
 use crate::editing::EditTask;
 
 /// The values of the fields.
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) struct ExactEdit {
     pub(crate) by_x_m: f64,
     pub(crate) by_y_m: f64,

@@ -91,9 +91,13 @@ impl PropertiesPanel {
         }
     }
 
+    /// The panel is shown in this frame, if only as it was.
+    pub(super) fn stay(&mut self) {
+        self.is_shown = true;
+    }
+
     /// Shows the fields of the selection, and in the drawing what is typed into them.
     pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
-        self.is_shown = true;
         self.show_fields(ui, files, actions);
         let wanted = self.wanted.take();
         if wanted != self.previewed {
