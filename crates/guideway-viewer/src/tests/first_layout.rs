@@ -9,6 +9,7 @@ use guideway_formats::{ReadOptions, Target, read_bytes};
 use guideway_layout::{CheckOptions, Layout, Severity, Value, check};
 use guideway_scene::Table;
 
+use super::schema::schema_errors;
 use super::services::TestServices;
 use super::test_window::{TestWindow, has_notice};
 
@@ -93,6 +94,10 @@ fn written(layout: &Layout, target: Target) -> Layout {
     let losses = losses.iter().map(|loss| loss.to_string());
     let losses: Vec<String> = losses.filter(|loss| !is_derived(loss)).collect();
     assert!(losses.is_empty(), "{target:?}: {losses:?}");
+    if target == Target::Lif1 {
+        let errors = schema_errors("LIF-1.0.schema.json", &bytes).unwrap_or_default();
+        assert_eq!(errors.trim(), "");
+    }
     read_bytes("first.lif.json", &bytes, &ReadOptions::default()).expect("it is valid")
 }
 

@@ -30,6 +30,7 @@ mod random_run;
 mod recovery;
 mod route;
 mod safety;
+mod schema;
 pub(crate) mod services;
 mod soak;
 mod table;

@@ -11,6 +11,7 @@ use guideway_layout::{CheckOptions, Direction, Layout, Severity, Value, check};
 use guideway_network::{AnalyzeOptions, NoteSource, analyze};
 use guideway_scene::Table;
 
+use super::schema::schema_errors;
 use super::services::TestServices;
 use super::test_window::{TestWindow, has_notice};
 use crate::command::Command;
@@ -160,6 +161,8 @@ fn from_a_drawing_to_a_plant_without_findings() {
     let layout = window.disk.files.lock().unwrap()[Path::new("hall.xml")].clone();
     let mut bytes = Vec::new();
     Target::OpenTcs7.write(&layout, &mut bytes).unwrap();
+    let errors = schema_errors("opentcs-model-7.0.0.xsd", &bytes).unwrap_or_default();
+    assert_eq!(errors.trim(), "");
     let plant = read_bytes("hall.xml", &bytes, &ReadOptions::default()).unwrap();
     assert_eq!(findings(&plant), Vec::<String>::new());
     let sizes = [plant.paths.len(), plant.nodes.len(), plant.stations.len()];
