@@ -78,6 +78,15 @@ impl FloorPlan {
         }
     }
 
+    /// The plan with light and dark exchanged if it is an image on paper; `None` for others. On a
+    /// dark background paper would outshine all else.
+    pub fn negative_of_paper(&self) -> Option<Self> {
+        match self {
+            Self::Image(image) if image.is_paper() => Some(Self::from_image(image.negative())),
+            Self::Image(_) | Self::Paths(..) => None,
+        }
+    }
+
     /// Prepares the plan for rendering.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::io;
 use std::path::Path;
+use std::sync::Arc;
 
 use guideway_formats::ReadOptions;
 use guideway_formats::raster::{self, ImagePlacement, Raster};
@@ -20,7 +21,9 @@ use crate::page::{Page, PageImage};
 /// An image that lies on the floor.
 pub struct Image {
     /// The image and its smaller copies, the largest first; at least one.
-    levels: Vec<MipLevel>,
+    levels: Arc<[MipLevel]>,
+    /// True if light and dark are exchanged.
+    is_negative: bool,
     /// Maps pixels of the image, y down, to meters.
     world_from_image: Affine,
     px_per_m: f64,
@@ -29,11 +32,22 @@ pub struct Image {
     png: Option<Vec<u8>>,
 }
 
+/// Least mean of each color of paper.
+const PAPER: u8 = 170;
+
+/// A color with its lightness exchanged: white becomes black, red stays.
+fn negative([r, g, b, a]: [u8; 4]) -> [u8; 4] {
+    let ends = i16::from(r.max(g).max(b)) + i16::from(r.min(g).min(b));
+    let exchanged = |c: u8| (i16::from(c) + 255 - ends) as u8;
+    [exchanged(r), exchanged(g), exchanged(b), a]
+}
+
 impl Image {
     /// Places an image.
     pub fn new(image: Raster, placement: &ImagePlacement) -> Self {
         Self {
-            levels: levels(&image),
+            levels: levels(&image).into(),
+            is_negative: false,
             world_from_image: placement.world_from_image(image.height),
             px_per_m: placement.px_per_m,
             rotation_rad: placement.rotate_deg.to_radians(),
@@ -53,6 +67,33 @@ impl Image {
     /// The image of a ROS map: walls dark, free cells white, unknown ones a translucent gray.
     pub fn from_map(grid: &OccupancyGrid) -> Self {
         Self::new(map_colors::image_of(grid), &grid.placement)
+    }
+
+    /// Returns `true` if the image is mostly light, as a drawing on paper is.
+    pub fn is_paper(&self) -> bool {
+        let mean = self
+            .levels
+            .last()
+            .and_then(|level| level.straight_pixels().next());
+        mean.is_some_and(|[r, g, b, a]| a > 127 && r.min(g).min(b) > PAPER)
+    }
+
+    /// The same image with light and dark exchanged, for a dark background: hues stay, and the
+    /// pixels are shared.
+    pub fn negative(&self) -> Self {
+        Self {
+            levels: Arc::clone(&self.levels),
+            is_negative: !self.is_negative,
+            png: None,
+            ..*self
+        }
+    }
+
+    fn shown(&self, color: [u8; 4]) -> [u8; 4] {
+        match self.is_negative {
+            true => negative(color),
+            false => color,
+        }
     }
 
     /// The bytes of a PNG file with the pixels of the image.
@@ -110,7 +151,7 @@ impl Image {
                     from_corner.x * level_scale.x,
                     -from_corner.y * level_scale.y,
                 );
-                *pixel = over(unpremultiply(sample), below);
+                *pixel = over(self.shown(unpremultiply(sample)), below);
             }
         }
     }
@@ -140,7 +181,8 @@ impl PageImage for Image {
     }
 
     fn pixels(&self) -> impl Iterator<Item = [u8; 4]> {
-        self.levels[0].straight_pixels()
+        let pixels = self.levels[0].straight_pixels();
+        pixels.map(|color| self.shown(color))
     }
 }
 
@@ -194,6 +236,27 @@ mod tests {
         assert_eq!(color_at(&image, 10.5, 21.5, 8.0), [255, 0, 0, 255]);
         assert_eq!(color_at(&image, 11.5, 20.5, 8.0), [255; 4]);
         assert_eq!(color_at(&image, 9.9, 20.5, 8.0), [0, 0, 0, 255]);
+    }
+
+    #[test]
+    fn negative_exchanges_light_and_dark_and_keeps_hues() {
+        let image = image(0.0);
+        assert!(!image.is_paper());
+        let dark = image.negative();
+        assert_eq!(color_at(&dark, 11.5, 20.5, 8.0), [0, 0, 0, 255], "white");
+        assert_eq!(color_at(&dark, 10.5, 20.5, 8.0), [0, 0, 255, 255], "blue");
+        assert_eq!(dark.pixels().next(), Some([255, 0, 0, 255]), "red");
+        assert_eq!(negative([10, 20, 200, 7]), [55, 65, 245, 7]);
+        let twice = dark.negative();
+        assert_eq!(color_at(&twice, 11.5, 20.5, 8.0), [255; 4]);
+        let white = Raster {
+            width: 3,
+            height: 1,
+            pixels: vec![[255; 4], [0, 0, 0, 255], [255; 4]],
+            has_alpha: false,
+            png: None,
+        };
+        assert!(Image::new(white, &placement(0.0)).is_paper());
     }
 
     #[test]

@@ -244,7 +244,8 @@ impl App {
             document,
         });
         self.swept_areas.request(active, &view, services, repaint);
-        self.floor_plan.request(&view, repaint);
+        self.floor_plan
+            .request(&view, self.settings.is_dark, repaint);
     }
 
     /// Takes the results of all background threads.

@@ -13,20 +13,31 @@ use crate::background::{BackgroundTask, RepaintHandle};
 use crate::render_queue::BackgroundPicture;
 use crate::services::AppServices;
 
-/// Part of its opacity that an image has on a dark background: the white of paper would outshine
-/// names and lines.
+/// Part of its opacity that an image has on a dark background, where it would outshine names and
+/// lines; paper is shown as its negative.
 const DARK_IMAGE_OPACITY: f32 = 0.35;
+const DARK_PAPER_OPACITY: f32 = 0.5;
 
 /// A floor plan that stays prepared, to be rendered at every change of the view.
 struct ReadyPlan {
     plan: FloorPlan,
     prepared: Mutex<PreparedFloorPlan>,
+    /// The plan for a dark background, if it differs.
+    dark: Option<Arc<ReadyPlan>>,
 }
 
 impl ReadyPlan {
     fn new(plan: FloorPlan) -> Result<Self, ComposeError> {
         Ok(Self {
             prepared: Mutex::new(plan.prepare(&Budget::default())?),
+            dark: match plan.negative_of_paper() {
+                Some(negative) => Some(Arc::new(Self {
+                    prepared: Mutex::new(negative.prepare(&Budget::default())?),
+                    plan: negative,
+                    dark: None,
+                })),
+                None => None,
+            },
             plan,
         })
     }
@@ -56,7 +67,10 @@ pub(crate) struct FloorPlanLayer {
     reading: Option<BackgroundTask<Result<ReadyPlan, UserError>>>,
     ready: Option<Arc<ReadyPlan>>,
     read_error: Option<String>,
-    picture: BackgroundPicture<()>,
+    /// True on a dark background.
+    is_dark: bool,
+    /// Its content is whether the background is dark.
+    picture: BackgroundPicture<bool>,
 }
 
 impl Default for FloorPlanLayer {
@@ -71,6 +85,7 @@ impl Default for FloorPlanLayer {
             reading: None,
             ready: None,
             read_error: None,
+            is_dark: false,
             picture: BackgroundPicture::default(),
         }
     }
@@ -94,7 +109,10 @@ impl FloorPlanLayer {
         services: &Arc<dyn AppServices>,
         repaint: &RepaintHandle,
     ) {
-        *self = Self::default();
+        *self = Self {
+            is_dark: self.is_dark,
+            ..Self::default()
+        };
         let text = text.trim();
         if text.is_empty() {
             return;
@@ -143,16 +161,28 @@ impl FloorPlanLayer {
     }
 
     fn visible_ready(&self) -> Option<&Arc<ReadyPlan>> {
-        self.ready.as_ref().filter(|_| self.is_visible)
+        let ready = self.ready.as_ref().filter(|_| self.is_visible)?;
+        Some(
+            ready
+                .dark
+                .as_ref()
+                .filter(|_| self.is_dark)
+                .unwrap_or(ready),
+        )
     }
 
     /// The opacity with which the plan is drawn, from 0 to 1.
-    pub(crate) fn drawn_opacity(&self, is_dark: bool) -> f32 {
-        let opacity = self.opacity.clamp(0.0, 1.0);
-        match self.visible() {
-            Some(FloorPlan::Image(_)) if is_dark => DARK_IMAGE_OPACITY * opacity,
-            _ => opacity,
-        }
+    pub(crate) fn drawn_opacity(&self) -> f32 {
+        let is_paper = self
+            .ready
+            .as_ref()
+            .is_some_and(|ready| ready.dark.is_some());
+        let part = match self.visible() {
+            Some(FloorPlan::Image(_)) if self.is_dark && is_paper => DARK_PAPER_OPACITY,
+            Some(FloorPlan::Image(_)) if self.is_dark => DARK_IMAGE_OPACITY,
+            _ => 1.0,
+        };
+        part * self.opacity.clamp(0.0, 1.0)
     }
 
     /// The last picture and its view.
@@ -182,15 +212,16 @@ impl FloorPlanLayer {
     }
 
     /// Requests the picture of a view, unless it is there or in progress.
-    pub(crate) fn request(&mut self, view: &View, repaint: &RepaintHandle) {
+    pub(crate) fn request(&mut self, view: &View, is_dark: bool, repaint: &RepaintHandle) {
+        self.is_dark = is_dark;
         let Some(ready) = self.visible_ready() else {
             self.picture.clear();
             return;
         };
-        if self.picture.needs(&(), view) {
+        if self.picture.needs(&is_dark, view) {
             let (ready, view) = (Arc::clone(ready), *view);
             let draw = move || ready.draw(&view);
-            self.picture.start((), view, repaint, draw);
+            self.picture.start(is_dark, view, repaint, draw);
         }
     }
 }
@@ -231,32 +262,39 @@ mod tests {
     }
 
     #[test]
-    fn image_is_dimmed_on_a_dark_background_and_a_drawing_is_not() {
+    fn paper_is_dark_on_a_dark_background_other_images_dim_and_drawings_stay() {
         let (mut layer, _) = read("hall.png@px-per-m=20");
         layer.opacity = 0.5;
-        let opacities =
-            |layer: &FloorPlanLayer| [false, true].map(|dark| layer.drawn_opacity(dark));
-        assert_eq!(
-            opacities(&layer),
-            [0.5, 0.5],
-            "the plan of the tests is a drawing"
-        );
-        let white = Raster {
-            width: 1,
-            height: 1,
-            pixels: vec![[255; 4]],
-            has_alpha: false,
-            png: None,
+        let opacities = |layer: &mut FloorPlanLayer| {
+            [false, true].map(|is_dark| {
+                layer.is_dark = is_dark;
+                layer.drawn_opacity()
+            })
         };
+        let drawing = opacities(&mut layer);
+        assert_eq!(drawing, [0.5, 0.5], "the plan of the tests is a drawing");
         let placement = ImagePlacement {
             px_per_m: 1.0,
             rotate_deg: 0.0,
             offset_m: Point::default(),
         };
-        let image = FloorPlan::from_image(Image::new(white, &placement));
-        layer.ready = Some(Arc::new(ReadyPlan::new(image).unwrap()));
-        let [light, dark] = opacities(&layer);
-        assert!(light == 0.5 && dark < 0.25, "{dark}");
+        for (gray, of_window) in [(255, 0), (100, 100)] {
+            let image = Raster {
+                width: 1,
+                height: 1,
+                pixels: vec![[gray, gray, gray, 255]],
+                has_alpha: false,
+                png: None,
+            };
+            let image = FloorPlan::from_image(Image::new(image, &placement));
+            layer.ready = Some(Arc::new(ReadyPlan::new(image).unwrap()));
+            let [light, dark] = opacities(&mut layer);
+            assert!(light == 0.5 && dark < 0.3, "{dark}");
+            let size = guideway_scene::FrameSize::new(1, 1).unwrap();
+            let view = View::new(size, Point::new(0.5, 0.5), 1.0).unwrap();
+            let frame = layer.visible_ready().unwrap().draw(&view).unwrap();
+            assert_eq!(frame.pixels()[0], [of_window, of_window, of_window, 255]);
+        }
     }
 
     #[test]

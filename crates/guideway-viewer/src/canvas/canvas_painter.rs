@@ -135,7 +135,7 @@ impl CanvasPainter<'_> {
         let by = Vec2::new((by.x * scale) as f32, (-by.y * scale) as f32);
         let rect = self.screen.picture_rect(of, &self.view).translate(by);
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        let opacity = self.floor_plan.drawn_opacity(self.settings.is_dark);
+        let opacity = self.floor_plan.drawn_opacity();
         let opacity = (opacity * 255.0).round() as u8;
         painter.image(
             texture.id(),

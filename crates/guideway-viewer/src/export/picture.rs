@@ -44,7 +44,7 @@ impl PictureContent<'_> {
                 ..settings.style(self.px_per_point)
             },
             floor_plan: self.floor_plan.visible().cloned(),
-            floor_plan_opacity: f64::from(self.floor_plan.drawn_opacity(settings.is_dark)),
+            floor_plan_opacity: f64::from(self.floor_plan.drawn_opacity()),
             swept: document.and_then(|document| self.swept_areas.areas(document)),
             grid: settings.grid(&self.view, self.px_per_point),
             marks: self.marks(),
