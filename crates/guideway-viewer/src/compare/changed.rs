@@ -1,6 +1,6 @@
 //! The changes of one comparison, with rows of both documents.
 
-use crate::language::{say, t};
+use crate::language::{say, t, translated};
 use guideway_document::{Element, Elements, Snapshot, text_format};
 use guideway_layout::{Change, Changes, CompareOptions, ElementChange, ElementKind, changes};
 use guideway_scene::Table;
@@ -79,7 +79,10 @@ impl Changed {
         }
         let groups = found.groups.iter();
         changed.groups = groups
-            .map(|group| format!("{}: {}; {}", group.what, group.count, group.example))
+            .map(|group| {
+                let [what, example] = [&group.what, &group.example].map(|text| translated(text));
+                format!("{what}: {}; {example}", group.count)
+            })
             .collect();
         changed
     }
@@ -100,6 +103,17 @@ fn table(kind: ElementKind) -> Option<Table> {
         }
     }
 }
+
+/// What changes beside the properties of elements.
+const FACTS: [&str; 7] = [
+    "direction",
+    "end node",
+    "level",
+    "nodes",
+    "position",
+    "start node",
+    "vehicle types",
+];
 
 /// `path a: maxSpeed 1 m/s, was 2 m/s`.
 fn text_of(of: Table, found: &Changes<'_>, change: &ElementChange) -> String {
@@ -131,9 +145,16 @@ fn text_of(of: Table, found: &Changes<'_>, change: &ElementChange) -> String {
             let [before, after] =
                 [before, after].map(|v| v.unwrap_or_else(|| t("none").to_owned()));
             let of = of.unwrap_or_default();
+            // Names and values of columns are the file's.
+            let is_fact = FACTS.contains(&&*values.property);
+            let word = |text: String| match is_fact {
+                true => translated(&text).into_owned(),
+                false => text,
+            };
+            let [name, after, before] = [values.property.into(), after, before].map(word);
             say!(
                 "{name}{of} is {after}, was {before}",
-                name = values.property,
+                name,
                 of,
                 after,
                 before

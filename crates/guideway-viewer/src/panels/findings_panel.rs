@@ -1,7 +1,9 @@
 //! The Findings tab: results of the checks, their fixes, and the options of the next check.
 
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{CollapsingHeader, Color32, DragValue, RichText, TextFormat, Ui, WidgetText};
+use eframe::egui::{
+    CollapsingHeader, Color32, DragValue, FontId, RichText, TextFormat, Ui, WidgetText,
+};
 use guideway_document::{
     Document, Element, ProposedFix, fix_all, fixes, has_fixes, locate, located,
 };
@@ -34,13 +36,14 @@ impl FindingsPanel {
     }
 
     /// The name of the tab, with the number of errors, warnings and notes in their colors.
-    pub(super) fn title(files: &OpenFiles) -> WidgetText {
+    pub(super) fn title(files: &OpenFiles, points: f32) -> WidgetText {
         let findings = files.active().and_then(|layer| layer.tasks.findings());
         let counts = findings.map_or([0; 3], |findings| by_severity(&findings.diagnostics));
         let mut title = LayoutJob::default();
         let mut add = |text: &str, color: Color32| {
             let format = TextFormat {
                 color,
+                font_id: FontId::proportional(points),
                 ..TextFormat::default()
             };
             title.append(text, 0.0, format);

@@ -1,6 +1,6 @@
 //! The side panel: tabs with fixed places, one per part of the window.
 
-use eframe::egui::{CollapsingHeader, Rect, ScrollArea, TextWrapMode, Ui, UiBuilder};
+use eframe::egui::{CollapsingHeader, Rect, ScrollArea, TextStyle, TextWrapMode, Ui, UiBuilder};
 use guideway_document::Document;
 
 use super::findings_panel::FindingsPanel;
@@ -18,6 +18,9 @@ use crate::units::{Units, units};
 
 /// Windows narrower than this begin without the panel, in points: the drawing needs the space.
 const MIN_WINDOW_WIDTH: f32 = 700.0;
+
+/// Size of the names of tabs.
+const TAB_POINTS: f32 = 12.0;
 
 /// A tab of the side panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -139,10 +142,13 @@ impl SidePanel<'_> {
         ui.horizontal_wrapped(|ui| {
             // The names of all languages fit into one row of the panel's first width.
             ui.spacing_mut().item_spacing.x = 0.0;
-            ui.spacing_mut().button_padding.x = 3.5;
+            ui.spacing_mut().button_padding.x = 3.0;
+            if let Some(font) = ui.style_mut().text_styles.get_mut(&TextStyle::Button) {
+                font.size = TAB_POINTS;
+            }
             for tab in SideTab::ALL {
                 let title = match tab {
-                    SideTab::Findings => FindingsPanel::title(self.files),
+                    SideTab::Findings => FindingsPanel::title(self.files, TAB_POINTS),
                     _ => tab.name().into(),
                 };
                 ui.selectable_value(&mut self.tabs.tab, tab, title);

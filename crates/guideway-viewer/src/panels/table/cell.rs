@@ -7,7 +7,7 @@ use guideway_spline::Point;
 
 use super::super::properties::{FieldKind, TypedValue, kind_of};
 use crate::editing::EditTask;
-use crate::language::{say, t};
+use crate::language::{direction_name, say, t};
 use crate::selection::level_names;
 use crate::units::shown_value;
 
@@ -18,6 +18,7 @@ pub(super) fn cell_text(layout: &Layout, of: Table, column: &Column, row: u32) -
             // `Display` prints no trailing zeros.
             ((m * 1e3).round() / 1e3).to_string()
         }
+        (Column::Direction, Value::Text(word)) => t(word).to_owned(),
         (_, value) => shown_value(value, column.unit(layout, of)),
     };
     if let Column::Attribute(name) = column
@@ -201,6 +202,8 @@ fn direction_named(text: &str) -> Result<Direction, String> {
     match text {
         "one-way" => Ok(Direction::Forward),
         "two-way" => Ok(Direction::Both),
+        _ if text == direction_name(Direction::Forward) => Ok(Direction::Forward),
+        _ if text == direction_name(Direction::Both) => Ok(Direction::Both),
         _ => Err(t("choose one of one-way, two-way").to_owned()),
     }
 }
@@ -223,6 +226,7 @@ fn level_named(layout: &Layout, text: &str) -> Result<Option<u32>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::{Language, set_language};
     use crate::tests::services::lanes;
 
     #[test]
@@ -263,6 +267,11 @@ mod tests {
         );
         assert_eq!(edit(Column::Direction, "two-way"), None);
         assert!(edit(Column::Direction, "up").is_some());
+        set_language(Language::German);
+        let text = cell_text(document.layout(), Table::Paths, &Column::Direction, 1);
+        assert_eq!(text, "Einbahn");
+        assert_eq!(edit(Column::Direction, "beide Richtungen"), None);
+        set_language(Language::English);
         assert!(edit(Column::Length, "3").unwrap().contains("follows"));
         assert!(edit(Column::Level, "attic").unwrap().contains("attic"));
     }
