@@ -14,19 +14,18 @@ const TEXT_POINTS: f32 = 10.0;
 const MIN_CURVATURE: f64 = 1e-6;
 
 /// Plots the bends of a path; the pointer reads a value.
-pub(super) fn show(ui: &mut Ui, bends: &[Bend]) {
-    let (Some(first), Some(last)) = (bends.first(), bends.last()) else {
+pub(super) fn show(ui: &mut Ui, bends: &[Bend], length_m: f64) {
+    if bends.is_empty() || length_m <= 0.0 {
         return;
-    };
+    }
     let size = Vec2::new(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let top = rect.min + Vec2::new(LEFT, TEXT_POINTS / 2.0);
     let plot = Rect::from_min_max(top, rect.max - Vec2::new(4.0, BELOW));
     let curvatures = bends.iter().map(|bend| bend.curvature.abs());
     let most = curvatures.fold(MIN_CURVATURE, f64::max);
-    let length_m = (last.along_m - first.along_m).max(1e-9);
     let point = |bend: &Bend| {
-        let x = ((bend.along_m - first.along_m) / length_m) as f32;
+        let x = (bend.along_m / length_m) as f32;
         let y = (0.5 - 0.5 * bend.curvature / most) as f32;
         plot.min + Vec2::new(x * plot.width(), y * plot.height())
     };
@@ -52,15 +51,14 @@ pub(super) fn show(ui: &mut Ui, bends: &[Bend]) {
         let at = Pos2::new(plot.left() + part * plot.width(), plot.bottom() + 1.0);
         let align =
             [Align2::LEFT_TOP, Align2::CENTER_TOP, Align2::RIGHT_TOP][(part * 2.0) as usize];
-        let along_m = f64::from(part) * last.along_m;
+        let along_m = f64::from(part) * length_m;
         text(at, align, text_format::length(along_m));
     }
     let curve = bends.iter().map(point).collect();
     painter.add(Shape::line(curve, Stroke::new(1.5, color)));
     let pointed = response.hover_pos().and_then(|at| {
         let x = f64::from((at.x - plot.left()) / plot.width());
-        let along_m = first.along_m + x * length_m;
-        nearest(bends, along_m)
+        nearest(bends, x * length_m)
     });
     if let Some(bend) = pointed {
         painter.circle_filled(point(bend), 3.0, color);

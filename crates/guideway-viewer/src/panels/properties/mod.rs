@@ -33,8 +33,8 @@ use crate::units::{Units, shown_unit, units};
 const NAME_WIDTH: f32 = 130.0;
 /// Greatest width: that of the longest name with its unit.
 const MAX_NAME_WIDTH: f32 = 200.0;
-/// Width of the button behind a field, in points.
-const BUTTON_WIDTH: f32 = 30.0;
+/// Width of the button behind a field, with the margins of both, in points.
+const BUTTON_WIDTH: f32 = 42.0;
 
 /// The section: what is shown, and the text that is being typed.
 #[derive(Default)]
@@ -155,7 +155,7 @@ impl PropertiesPanel {
         ui.strong(shown.heading());
         if let Some(shape) = &shown.shape {
             ui.label(&shape.text);
-            curvature_plot::show(ui, &shape.bends);
+            curvature_plot::show(ui, &shape.bends, shape.length_m);
         }
         if shown.rows.len() > MAX_COMPARED as u64 {
             ui.small(say!(

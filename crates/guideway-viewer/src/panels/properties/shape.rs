@@ -15,6 +15,8 @@ const MAX_MEASURED: u64 = 20_000;
 pub(super) struct PathShape {
     /// Length and tightest bend of one path, or the sum of the lengths of several.
     pub(super) text: String,
+    /// Length of the only path; else 0.
+    pub(super) length_m: f64,
     /// Bends of the only path.
     pub(super) bends: Vec<Bend>,
 }
@@ -25,8 +27,11 @@ impl PathShape {
         let path = |row: u32| layout.paths.get(row as usize);
         if let (1, Some(row)) = (rows.len(), rows.min()) {
             let bends = bends(path(row));
-            let text = shape_text(path(row), &bends);
-            return Self { text, bends };
+            return Self {
+                text: shape_text(path(row), &bends),
+                length_m: path(row).length_m(),
+                bends,
+            };
         }
         let text = if rows.len() > MAX_MEASURED {
             let most = grouped(MAX_MEASURED);
@@ -41,8 +46,10 @@ impl PathShape {
                 length = text_format::length(sum_m)
             )
         };
-        let bends = Vec::new();
-        Self { text, bends }
+        Self {
+            text,
+            ..Self::default()
+        }
     }
 }
 
