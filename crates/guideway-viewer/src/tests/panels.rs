@@ -1,12 +1,21 @@
 //! The side panel: tabs with fixed places, resized, hidden and steady.
 
-use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use eframe::egui::epaint::ClippedShape;
+use eframe::egui::{Context, Event, Key, Modifiers, Pos2, RawInput, Rect, Vec2};
 use egui_kittest::kittest::Queryable;
 use guideway_document::Document;
 use guideway_layout::Value;
 
-use super::services::lanes;
+use super::services::{TestServices, lanes};
 use super::test_window::TestWindow;
+use crate::LaunchOptions;
+use crate::app::App;
+use crate::command::Command;
+use crate::editing::EditTask;
 use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -57,7 +66,7 @@ fn fields_stay_while_an_edit_is_in_progress() {
     window.harness.run_steps(2);
     let before = place_of(&window, "direction");
     let (finish, rest) = std::sync::mpsc::channel::<()>();
-    window.app().edit_wait = std::time::Duration::ZERO;
+    window.app().edit_wait = Duration::ZERO;
     window.change(move |_: &mut Document| {
         let _ = rest.recv();
     });
@@ -155,4 +164,84 @@ fn search_counts_the_matches_beyond_those_listed() {
     );
     window.harness.run_steps(2);
     assert!(window.harness.query_by_label(&more).is_some());
+}
+
+/// The shapes of the side panel after each step of a session, in which the pointer is elsewhere. A
+/// screen reader needs a new layout in each frame.
+fn session(has_reader: bool) -> Vec<Vec<ClippedShape>> {
+    let disk = TestServices::with([("site.arrow", lanes(4))]);
+    let options = LaunchOptions {
+        files: vec!["site.arrow".into()],
+        method: Some("cpu".into()),
+        ..LaunchOptions::default()
+    };
+    let (ctx, mut app) = (
+        Context::default(),
+        App::launch(Arc::new(|| {}), disk, options),
+    );
+    if has_reader {
+        ctx.enable_accesskit();
+    }
+    let mut time = 0.0;
+    let mut frame = |app: &mut App| {
+        time += 0.1;
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(1200.0, 800.0))),
+            time: Some(time),
+            events: vec![Event::PointerMoved(Pos2::new(300.0, 300.0))],
+            ..RawInput::default()
+        };
+        let mut output = ctx.run_ui(input, |ui| app.show(ui));
+        output.textures_delta.clear();
+        let canvas = app.canvas.screen().rect;
+        let shapes = output.shapes.into_iter();
+        // Below the names of the tabs, which count findings as they come.
+        let of_tab = |shape: &ClippedShape| {
+            let clip = shape.clip_rect;
+            clip.left() > canvas.right() && clip.top() > canvas.top() + 20.0
+        };
+        shapes.filter(of_tab).collect::<Vec<_>>()
+    };
+    let mut settle = |app: &mut App| {
+        while app.document().is_none() || !app.is_settled() {
+            frame(app);
+            thread::sleep(Duration::from_millis(2));
+        }
+        let mut last = Vec::new();
+        for _ in 0..6 {
+            last = frame(app);
+        }
+        last
+    };
+    let mut seen = vec![settle(&mut app)];
+    let steps: [fn(&mut App, &Context); 7] = [
+        |app, _| app.edit(EditTask::view_change(Document::select_all)),
+        |app, ctx| app.perform(Command::TwoWay, ctx),
+        |app, ctx| app.perform(Command::Undo, ctx),
+        |app, _| {
+            app.edit(EditTask::view_change(|document| {
+                let second = [1].into_iter().collect();
+                document.select(second, guideway_document::SelectMode::Replace);
+            }));
+        },
+        |app, _| app.settings.language = Some(crate::language::Language::German),
+        |app, _| app.exact_edit.by_x_m = 7.0,
+        |app, ctx| app.perform(Command::Delete, ctx),
+    ];
+    for step in steps {
+        step(&mut app, &ctx);
+        seen.push(settle(&mut app));
+    }
+    seen
+}
+
+#[test]
+fn tab_that_nothing_touches_shows_what_a_new_layout_would() {
+    let (painted, laid_out) = (session(false), session(true));
+    for (step, (painted, laid_out)) in painted.iter().zip(&laid_out).enumerate() {
+        assert!(!painted.is_empty());
+        assert!(painted == laid_out, "step {step}");
+    }
+    let changed = painted.array_windows().filter(|[a, b]| a != b);
+    assert_eq!(changed.count(), painted.len() - 1, "each step shows");
 }
