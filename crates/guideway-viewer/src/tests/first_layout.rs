@@ -124,7 +124,7 @@ fn from_nothing_to_a_valid_lif_file() {
     prompt.text = "first.lif.json".into();
     window.key(NONE, Key::Enter);
     window.wait(|app| has_notice(app, "Saved first.lif.json"));
-    assert!(!window.app().files.active().unwrap().is_changed());
+    window.wait(|app| app.files.active().is_some_and(|layer| !layer.is_changed()));
     let layout = window.disk.files.lock().unwrap()[Path::new("first.lif.json")].clone();
     // The next one does not.
     window.key(NONE, Key::S);
