@@ -104,7 +104,7 @@ fn table(kind: ElementKind) -> Option<Table> {
     }
 }
 
-/// What changes beside the properties of elements.
+/// Facts of elements beside their properties, as a comparison names them.
 const FACTS: [&str; 7] = [
     "direction",
     "end node",

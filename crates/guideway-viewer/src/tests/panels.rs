@@ -166,7 +166,7 @@ fn search_counts_the_matches_beyond_those_listed() {
     assert!(window.harness.query_by_label(&more).is_some());
 }
 
-/// What a shape draws. The letters of two windows may lie elsewhere in their textures.
+/// The picture of a shape in words: the letters of two windows may lie elsewhere in their textures.
 fn drawn(shape: &ClippedShape) -> String {
     let clip = shape.clip_rect;
     match &shape.shape {
@@ -175,7 +175,7 @@ fn drawn(shape: &ClippedShape) -> String {
     }
 }
 
-/// What the side panel shows after each step of a session, in which the pointer is elsewhere. A
+/// The shapes of the side panel after each step of a session, in which the pointer is elsewhere. A
 /// screen reader needs a new layout in each frame.
 fn session(has_reader: bool) -> Vec<Vec<String>> {
     let disk = TestServices::with([("site.arrow", lanes(4))]);

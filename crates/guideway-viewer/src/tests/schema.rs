@@ -1,4 +1,4 @@
-//! What the schemas of VDMA and openTCS say of a written file. Needs Python with jsonschema and
+//! Checks a written file by the schemas of VDMA and openTCS. Needs Python with jsonschema and
 //! lxml; `GUIDEWAY_PYTHON` names the interpreter.
 
 use std::io::Write;
@@ -11,7 +11,8 @@ schema, text = sys.argv[1], sys.stdin.buffer.read()
 if schema.endswith('.json'):
     import jsonschema
     validator = jsonschema.Draft7Validator(json.load(open(schema)))
-    errors = [f'{list(e.absolute_path)} {e.message[:200]}' for e in validator.iter_errors(json.loads(text))]
+    found = validator.iter_errors(json.loads(text))
+    errors = [f'{list(error.absolute_path)} {error.message[:200]}' for error in found]
 else:
     from lxml import etree
     validator = etree.XMLSchema(etree.parse(schema))
