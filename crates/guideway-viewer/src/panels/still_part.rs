@@ -62,21 +62,20 @@ impl Place {
 impl<K: PartialEq> StillPart<K> {
     /// Shows the part by `lay_out`, or as it was laid out last with this key.
     pub(super) fn show(&mut self, ui: &mut Ui, key: K, lay_out: impl FnOnce(&mut Ui)) {
-        let place = Place::of(ui);
-        let last = self.last.take();
-        let was_settled = last.as_ref().is_some_and(|last| last.is_settled);
+        let (place, is_untouched) = (Place::of(ui), is_untouched(ui));
         let is_same = |last: &Layout<K>| last.key == key && last.place.is_same(&place);
-        let last = last.filter(|last| is_same(last) && is_untouched(ui));
+        let last = self.last.take().filter(is_same);
         self.last = Some(match last {
-            Some(last) if last.is_settled => {
+            Some(last) if last.is_settled && is_untouched => {
                 last.paint(ui);
                 last
             }
             last => {
-                if was_settled {
+                if last.as_ref().is_some_and(|last| last.is_settled) {
                     // egui knows only after this frame which label is under the pointer.
                     ui.ctx().request_repaint();
                 }
+                let last = last.filter(|_| is_untouched);
                 Layout::new(ui, (key, place), last, lay_out)
             }
         });
