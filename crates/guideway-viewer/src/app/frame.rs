@@ -1,5 +1,6 @@
 //! One frame: takes the results of background threads, shows all parts, and routes their actions.
 
+use std::mem;
 use std::thread;
 use std::time::Duration;
 
@@ -41,12 +42,13 @@ impl App {
         self.remember(&ctx);
         self.update_title(&ctx);
         let width = ui.available_width();
+        let mut bars = mem::take(&mut self.bars);
         Panel::top("menus").show(ui, |ui| {
             let bar = MenuBar {
                 commands: self.command_state(width),
                 writer: &self.writer,
             };
-            let actions = bar.show(ui);
+            let actions = bar.show(ui, &mut bars.menus);
             self.apply_all(actions, &ctx);
         });
         if self.files.active().is_some() {
@@ -57,10 +59,11 @@ impl App {
                     settings: &mut self.settings,
                     new_edges: &mut self.new_edges,
                 };
-                let actions = bar.show(ui);
+                let actions = bar.show(ui, &mut bars.drawing);
                 self.apply_all(actions, &ctx);
             });
         }
+        self.bars = bars;
         Panel::bottom("status").show(ui, |ui| {
             let bar = StatusBar {
                 canvas: &self.canvas,

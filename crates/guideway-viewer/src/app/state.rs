@@ -17,7 +17,7 @@ use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::language::{Language, set_language};
 use crate::panels::dialogs::{Dialogs, Question};
 use crate::panels::{
-    BottomPanel, FindingsPanel, NewEdgesPanel, PropertiesPanel, SideTabs, Welcome,
+    BottomPanel, FindingsPanel, NewEdgesPanel, PropertiesPanel, SideTabs, StillBars, Welcome,
 };
 use crate::preferences::{PreferencesFile, WindowPlace};
 use crate::render_queue::MethodSelection;
@@ -49,6 +49,7 @@ pub(crate) struct App {
     /// Elements to paste.
     pub(crate) copied: Option<CopiedElements>,
     pub(crate) side: SideTabs,
+    pub(crate) bars: StillBars,
     pub(crate) bottom: BottomPanel,
     /// The path under the pointer in another than the active file.
     pub(crate) other_hit: Option<OtherHit>,
@@ -108,6 +109,7 @@ impl App {
             new_edges: NewEdgesPanel::default(),
             copied: None,
             side: SideTabs::new(preferences.side_panel),
+            bars: StillBars::default(),
             bottom: BottomPanel::default(),
             other_hit: None,
             dialogs: Dialogs::default(),

@@ -2,13 +2,15 @@
 
 use eframe::egui::{ComboBox, DragValue, Id, Label, Ui};
 use guideway_document::Document;
+use guideway_layout::Direction;
 
 use super::new_edges::NewEdgesPanel;
+use super::still_part::StillPart;
 use crate::action::Action;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
 use crate::files::OpenFiles;
-use crate::language::{direction_name, say, t};
+use crate::language::{Language, direction_name, language, say, t};
 use crate::tools::Tools;
 
 /// Steps of the grid to choose from, in meters.
@@ -22,14 +24,47 @@ pub(crate) struct DrawingBar<'a> {
     pub(crate) new_edges: &'a mut NewEdgesPanel,
 }
 
+/// All that the bar shows while its list and the window of new paths are closed.
+#[derive(PartialEq)]
+pub(crate) struct DrawingKey {
+    language: Language,
+    /// Index of the active file, with revision and level of its document.
+    file: usize,
+    document: Option<(u64, Option<u32>)>,
+    snaps: [bool; 2],
+    grid_step_m: Option<f64>,
+    direction: Direction,
+    vehicle_types: Vec<String>,
+}
+
 impl DrawingBar<'_> {
     /// Shows the bar and returns the actions of clicks.
-    pub(crate) fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
+    pub(crate) fn show(&mut self, ui: &mut Ui, still: &mut StillPart<DrawingKey>) -> Vec<Action> {
         let mut actions = Vec::new();
+        if self.new_edges.is_open {
+            self.lay_out(ui, &mut actions);
+            return actions;
+        }
+        let (document, template) = (self.files.document(), &self.tools.template);
+        let types = template.vehicle_types.iter();
+        let key = DrawingKey {
+            language: language(),
+            file: self.files.active_index(),
+            document: document.map(|document| (document.revision(), document.level())),
+            snaps: [self.tools.snaps.to_objects, self.tools.snaps.to_grid],
+            grid_step_m: self.settings.grid_step_m,
+            direction: template.direction,
+            vehicle_types: types.map(|(name, _)| name.clone()).collect(),
+        };
+        still.show(ui, key, |ui| self.lay_out(ui, &mut actions));
+        actions
+    }
+
+    fn lay_out(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         ui.horizontal(|ui| {
             let document = self.files.document();
             if let Some(document) = document.filter(|d| !d.layout().levels.is_empty()) {
-                show_level(ui, document, &mut actions);
+                show_level(ui, document, actions);
                 ui.separator();
             }
             ui.add(Label::new(t("Snap to")).selectable(false));
@@ -62,7 +97,6 @@ impl DrawingBar<'_> {
                 self.new_edges.show(ui.ctx(), at, document, template);
             }
         });
-        actions
     }
 
     /// The step of the grid: chosen, typed, or following the scale.

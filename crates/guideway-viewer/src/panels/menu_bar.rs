@@ -5,11 +5,12 @@ use std::time::Duration;
 use eframe::egui::{self, Button, ProgressBar, Ui};
 
 use super::command_state::CommandState;
+use super::still_part::StillPart;
 use super::toolbar;
 use crate::action::Action;
 use crate::command::{Command, MENUS, Menu, shortcuts_of};
 use crate::files::FileWriter;
-use crate::language::{shortcut_text, t};
+use crate::language::{Language, language, shortcut_text, t};
 use crate::services::Job;
 
 /// Interval of progress updates. On a software renderer a frame takes a tenth of a second of the
@@ -22,10 +23,32 @@ pub(crate) struct MenuBar<'a> {
     pub(crate) writer: &'a FileWriter,
 }
 
+/// All that the bar shows while no menu is open and no job has progress.
+#[derive(PartialEq)]
+pub(crate) struct MenuKey {
+    language: Language,
+    toolbar: Vec<(bool, bool)>,
+}
+
 impl MenuBar<'_> {
     /// Shows the bar and returns the actions of clicks.
-    pub(crate) fn show(&self, ui: &mut Ui) -> Vec<Action> {
+    pub(crate) fn show(&self, ui: &mut Ui, still: &mut StillPart<MenuKey>) -> Vec<Action> {
         let mut actions = Vec::new();
+        let layers = self.commands.files.layers();
+        let has_job = layers.iter().any(|layer| layer.load_job().is_some());
+        if has_job || self.writer.job().is_some() {
+            self.lay_out(ui, &mut actions);
+            return actions;
+        }
+        let key = MenuKey {
+            language: language(),
+            toolbar: toolbar::state(&self.commands),
+        };
+        still.show(ui, key, |ui| self.lay_out(ui, &mut actions));
+        actions
+    }
+
+    fn lay_out(&self, ui: &mut Ui, actions: &mut Vec<Action>) {
         egui::MenuBar::new().ui(ui, |ui| {
             for menu in &MENUS {
                 ui.menu_button(t(menu.name), |ui| actions.extend(self.menu(menu, ui)));
@@ -45,7 +68,6 @@ impl MenuBar<'_> {
                 progress(ui, t("writing PNG").to_owned(), job);
             }
         });
-        actions
     }
 
     fn menu(&self, menu: &Menu, ui: &mut Ui) -> Option<Action> {

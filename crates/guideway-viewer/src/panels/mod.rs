@@ -30,6 +30,17 @@ mod table;
 mod toolbar;
 mod welcome;
 
+/// The last layouts of the bars at the top.
+#[derive(Default)]
+pub(crate) struct StillBars {
+    pub(crate) menus: StillPart<MenuKey>,
+    pub(crate) drawing: StillPart<DrawingKey>,
+}
+
+use drawing_bar::DrawingKey;
+use menu_bar::MenuKey;
+use still_part::StillPart;
+
 pub(crate) use bottom_panel::{BottomPanel, BottomView};
 pub(crate) use command_state::CommandState;
 pub(crate) use drawing_bar::DrawingBar;

@@ -8,7 +8,7 @@ use eframe::egui::text_selection::LabelSelectionState;
 use eframe::egui::{Color32, FontId, Galley, Popup, Pos2, Rect, Style, Ui, WidgetRect};
 
 /// The last layout of a part whose content is told by a key.
-pub(super) struct StillPart<K> {
+pub(crate) struct StillPart<K> {
     last: Option<Layout<K>>,
 }
 

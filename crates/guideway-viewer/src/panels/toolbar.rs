@@ -37,6 +37,14 @@ const ICON: f32 = 15.0;
 const GAP: f32 = 2.0;
 const GROUP_GAP: f32 = 10.0;
 
+/// All that the buttons show: for each whether it is possible, and whether it is on.
+pub(super) fn state(state: &CommandState<'_>) -> Vec<(bool, bool)> {
+    let commands = GROUPS.iter().flat_map(|group| group.iter());
+    commands
+        .map(|&command| (state.is_possible(command), state.is_on(command)))
+        .collect()
+}
+
 /// Shows the toolbar in a row and returns the actions of clicks.
 ///
 /// The buttons have fixed places in one part of the window: to place each as a widget would take

@@ -175,7 +175,7 @@ fn drawn(shape: &ClippedShape) -> String {
     }
 }
 
-/// The shapes of the side panel after each step of a session, in which the pointer is elsewhere. A
+/// The shapes of the bars and of the side panel after each step of a session, in which the pointer is elsewhere. A
 /// screen reader needs a new layout in each frame.
 fn session(has_reader: bool) -> Vec<Vec<String>> {
     let disk = TestServices::with([("site.arrow", lanes(4))]);
@@ -207,7 +207,8 @@ fn session(has_reader: bool) -> Vec<Vec<String>> {
         // Below the names of the tabs, which count findings as they come.
         let of_tab = |shape: &&ClippedShape| {
             let clip = shape.clip_rect;
-            clip.left() > canvas.right() && clip.top() > canvas.top() + 20.0
+            let is_tab = clip.left() > canvas.right() && clip.top() > canvas.top() + 20.0;
+            is_tab || clip.bottom() <= canvas.top()
         };
         shapes.filter(of_tab).map(drawn).collect::<Vec<_>>()
     };
@@ -223,7 +224,7 @@ fn session(has_reader: bool) -> Vec<Vec<String>> {
         last
     };
     let mut seen = vec![settle(&mut app)];
-    let steps: [fn(&mut App, &Context); 7] = [
+    let steps: [fn(&mut App, &Context); 9] = [
         |app, _| app.edit(EditTask::view_change(Document::select_all)),
         |app, ctx| app.perform(Command::TwoWay, ctx),
         |app, ctx| app.perform(Command::Undo, ctx),
@@ -235,6 +236,8 @@ fn session(has_reader: bool) -> Vec<Vec<String>> {
         },
         |app, _| app.settings.language = Some(crate::language::Language::German),
         |app, _| app.exact_edit.by_x_m = 7.0,
+        |app, ctx| app.perform(Command::ToolLine, ctx),
+        |app, _| app.settings.grid_step_m = Some(2.0),
         |app, ctx| app.perform(Command::Delete, ctx),
     ];
     for step in steps {
@@ -245,7 +248,7 @@ fn session(has_reader: bool) -> Vec<Vec<String>> {
 }
 
 #[test]
-fn tab_that_nothing_touches_shows_what_a_new_layout_would() {
+fn parts_that_nothing_touches_show_what_new_layouts_would() {
     let (painted, laid_out) = (session(false), session(true));
     for (step, (painted, laid_out)) in painted.iter().zip(&laid_out).enumerate() {
         assert!(!painted.is_empty());
