@@ -146,7 +146,7 @@ fn text_of(of: Table, found: &Changes<'_>, change: &ElementChange) -> String {
                 [before, after].map(|v| v.unwrap_or_else(|| t("none").to_owned()));
             let of = of.unwrap_or_default();
             // Names and values of columns are the file's.
-            let is_fact = FACTS.contains(&&*values.property);
+            let is_fact = FACTS.contains(&values.property);
             let word = |text: String| match is_fact {
                 true => translated(&text).into_owned(),
                 false => text,
