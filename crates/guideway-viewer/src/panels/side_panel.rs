@@ -1,6 +1,6 @@
 //! The side panel: tabs with fixed places, one per part of the window.
 
-use eframe::egui::{CollapsingHeader, Rect, ScrollArea, TextStyle, TextWrapMode, Ui, UiBuilder};
+use eframe::egui::{CollapsingHeader, Rect, RichText, ScrollArea, TextWrapMode, Ui, UiBuilder};
 use guideway_document::Document;
 
 use super::findings_panel::FindingsPanel;
@@ -143,13 +143,10 @@ impl SidePanel<'_> {
             // The names of all languages fit into one row of the panel's first width.
             ui.spacing_mut().item_spacing.x = 0.0;
             ui.spacing_mut().button_padding.x = 3.0;
-            if let Some(font) = ui.style_mut().text_styles.get_mut(&TextStyle::Button) {
-                font.size = TAB_POINTS;
-            }
             for tab in SideTab::ALL {
                 let title = match tab {
                     SideTab::Findings => FindingsPanel::title(self.files, TAB_POINTS),
-                    _ => tab.name().into(),
+                    _ => RichText::new(tab.name()).size(TAB_POINTS).into(),
                 };
                 ui.selectable_value(&mut self.tabs.tab, tab, title);
             }

@@ -175,8 +175,8 @@ fn drawn(shape: &ClippedShape) -> String {
     }
 }
 
-/// The shapes of the bars and of the side panel after each step of a session, in which the pointer is elsewhere. A
-/// screen reader needs a new layout in each frame.
+/// The shapes of the bars and of the side panel after each step of a session, in which the pointer
+/// is elsewhere. A screen reader needs a new layout in each frame.
 fn session(has_reader: bool) -> Vec<Vec<String>> {
     let disk = TestServices::with([("site.arrow", lanes(4))]);
     let options = LaunchOptions {
