@@ -1,4 +1,4 @@
-//! [`concatenated`]: joins the lists of tasks to one, by all threads.
+//! Memory of long lists: joins those of tasks by all threads, and keeps what is freed.
 
 use bytemuck::Zeroable;
 use bytemuck::allocation::zeroed_vec;
@@ -18,6 +18,14 @@ pub(super) fn concatenated<T: Copy + Send + Sync + Zeroable>(lists: &[&[T]]) -> 
     let copies = places.into_par_iter().zip(lists);
     copies.for_each(|(place, list)| place.copy_from_slice(list));
     all
+}
+
+/// Lets the allocator keep freed memory of up to 32 MB: fresh pages cost more than what edits write
+/// to them. The allocator of glibc does so once a block of that size was freed (mallopt(3),
+/// `M_MMAP_THRESHOLD`); others do as before.
+pub(super) fn keep_freed_memory() {
+    const BLOCK_BYTES: usize = (32 << 20) - (64 << 10);
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(BLOCK_BYTES)));
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! | file | purpose |
 //! |---|---|
 //! | `path_parts` | cuts paths into strokes |
-//! | `concatenated` | joins the lists of tasks |
+//! | `concatenated` | memory of long lists |
 //! | `cluster`, `pack` | groups neighboring strokes to clusters; quantizes their points |
 //! | `draw_ranks`, `facts` | draw ranks of paths; scene properties that each frame needs |
 //! | `point_buffer`, `scene_buffers` | the buffers of a scene, as many as binding limits require |

@@ -7,7 +7,7 @@ use guideway_spline::{Bounds, Point, hilbert};
 use rayon::prelude::*;
 
 use super::cluster::ClusterOrigin;
-use super::concatenated::concatenated;
+use super::concatenated::{concatenated, keep_freed_memory};
 use super::path_parts::PathPart;
 use crate::tiles::constants::CLUSTER_STROKES;
 use crate::tiles::layouts::{Cluster, PathStyle, PointFormat, Stroke};
@@ -97,6 +97,7 @@ pub(crate) fn max_move_m(size_m: f64) -> f64 {
 impl Packed {
     /// Packs parts. Neighbors in the world become neighbors in memory. All threads share the work.
     pub(crate) fn of(scene: &Scene, mut parts: Vec<PathPart>, packing: Packing) -> Self {
+        keep_freed_memory();
         packing.sort(scene.layout(), &mut parts);
         Self::of_sorted(scene, &parts, packing)
     }
