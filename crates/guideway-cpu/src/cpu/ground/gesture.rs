@@ -32,7 +32,7 @@ impl ShownGesture {
         (at_rest + thinned + self.is_split.capacity()) as u64
     }
 
-    /// The parts of a map that the view and the clusters take: all paths are translated by the view.
+    /// The parts of a map that the view and the clusters take: the view translates all paths.
     pub(crate) fn split(&self, by: Affine) -> (Point<f64>, Affine) {
         match by.as_translation().filter(|_| self.moves_all) {
             Some(shift_m) => (shift_m, Affine::IDENTITY),

@@ -23,7 +23,7 @@ use crate::cpu::ground::tile::TILE_PX;
 /// The samples of each tile of a picture that was drawn since the gesture began.
 #[derive(Default)]
 pub(crate) struct RestingCoverage {
-    /// What decides the samples.
+    /// The view and the style of the samples.
     drawn: Option<(SnappedTransform, Style)>,
     columns: usize,
     tiles: Vec<Mutex<Option<StoredMask>>>,

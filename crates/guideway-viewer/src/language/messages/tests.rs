@@ -105,8 +105,9 @@ fn sources(of: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(of).unwrap().map(|entry| entry.unwrap().path());
     let is_code = |path: &PathBuf| {
         let name = path.file_name().unwrap().to_string_lossy();
-        // Names of formats are the same in all languages.
-        let is_shown = !name.contains("test") && name != "format.rs" && name != "target.rs";
+        // Names of formats and encodings are the same in all languages.
+        let has_names = ["format.rs", "target.rs", "browser.rs"].contains(&&*name);
+        let is_shown = !name.contains("test") && !has_names;
         is_shown && (path.is_dir() || name.ends_with(".rs"))
     };
     entries
