@@ -51,10 +51,13 @@ pub const COMMAND: [&str; 7] = [
 ];
 
 /// Arguments of cargo that build the window.
-pub const WINDOW: [&str; 3] = [
-    "build",
+pub const WINDOW: [&str; 6] = [
+    "rustc",
     "--package=guideway-window",
+    "--bin=guideway-window",
     "--profile=dist-unwinding",
+    "--",
+    "-Copt-level=3",
 ];
 
 /// Flags of the C compiler that leave out what no level of compression in use needs of zstd.
