@@ -18,6 +18,21 @@ use std::path::{Path, PathBuf};
 pub use self::archive::{Archive, ArchiveError};
 pub use self::escape::EscapeError;
 
+/// The formats that have a folder; that of `any` holds files of no single format.
+pub const FORMATS: [&str; 11] = [
+    "any",
+    "arrow",
+    "dxf",
+    "geojson",
+    "lanelet2",
+    "lif",
+    "opendrive",
+    "opentcs",
+    "rmf",
+    "svg",
+    "vda5050",
+];
+
 /// The folder of a format, for instance `lif`.
 pub fn folder(format: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format)

@@ -2,22 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
-use guideway_bad_files::{Archive, ArchiveError, inputs};
+use guideway_bad_files::{Archive, ArchiveError, FORMATS, inputs};
 use proptest::prelude::*;
-
-const FORMATS: [&str; 11] = [
-    "any",
-    "arrow",
-    "dxf",
-    "geojson",
-    "lanelet2",
-    "lif",
-    "opendrive",
-    "opentcs",
-    "rmf",
-    "svg",
-    "vda5050",
-];
 
 fn archive_of(files: &[(&str, &[u8])]) -> Archive {
     let mut archive = Archive::default();

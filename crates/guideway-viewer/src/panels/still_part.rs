@@ -60,7 +60,7 @@ impl Place {
 }
 
 impl<K: PartialEq> StillPart<K> {
-    /// Shows the part by `lay_out`, or as it was laid out last with this key.
+    /// Shows the part by `lay_out`, or the shapes of its last layout with this key.
     pub(super) fn show(&mut self, ui: &mut Ui, key: K, lay_out: impl FnOnce(&mut Ui)) {
         let (place, is_untouched) = (Place::of(ui), is_untouched(ui));
         let is_same = |last: &Layout<K>| last.key == key && last.place.is_same(&place);

@@ -109,19 +109,6 @@ fn findings_and_their_fixes_are_german() {
 /// Reads the damaged and odd files of all formats, with all that is found.
 #[test]
 fn findings_and_errors_of_files_are_german() {
-    let formats = [
-        "any",
-        "arrow",
-        "dxf",
-        "geojson",
-        "lanelet2",
-        "lif",
-        "opendrive",
-        "opentcs",
-        "rmf",
-        "svg",
-        "vda5050",
-    ];
     set_language(Language::German);
     let (mut texts, mut english) = (0, Vec::new());
     let mut look_at = |text: String| {
@@ -135,7 +122,7 @@ fn findings_and_errors_of_files_are_german() {
             english.push(format!("{text} -> {german}"));
         }
     };
-    for format in formats {
+    for format in guideway_bad_files::FORMATS {
         for (name, bytes) in guideway_bad_files::inputs(format).unwrap().iter() {
             match guideway_formats::read_bytes(name, bytes, &ReadOptions::default()) {
                 Ok(layout) => {
