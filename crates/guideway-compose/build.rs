@@ -1,11 +1,15 @@
 //! Writes the embedded fonts without the programs and tables that fit letters to pixels, which no
-//! picture uses: more than half of the fonts of letters.
+//! picture uses: more than half of the fonts of letters. All but those of pages, which are sent
+//! compressed as a whole, are gzip.
 
 use std::error::Error;
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use epaint_default_fonts::{HACK_REGULAR, NOTO_EMOJI_REGULAR, UBUNTU_LIGHT};
+use flate2::Compression;
+use flate2::write::GzEncoder;
 
 /// Tables of hinting, names and signatures.
 const UNUSED: [&[u8; 4]; 12] = [
@@ -28,15 +32,27 @@ const HAS_INSTRUCTIONS: u16 = 1 << 8;
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     let folder = std::env::var("OUT_DIR")?;
+    let is_page = std::env::var("CARGO_CFG_TARGET_ARCH")? == "wasm32";
     for (name, font) in [
         ("hack.ttf", HACK_REGULAR),
         ("ubuntu.ttf", UBUNTU_LIGHT),
         ("symbols.ttf", NOTO_EMOJI_REGULAR),
     ] {
         let stripped = stripped(font).ok_or(name)?;
-        fs::write(Path::new(&folder).join(name), stripped)?;
+        let content = if is_page {
+            stripped
+        } else {
+            packed(&stripped)?
+        };
+        fs::write(Path::new(&folder).join(name), content)?;
     }
     Ok(())
+}
+
+fn packed(font: &[u8]) -> std::io::Result<Vec<u8>> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(font)?;
+    encoder.finish()
 }
 
 /// A TrueType font without its unused tables and the instructions of its glyphs. `None` if it is

@@ -2,11 +2,17 @@
 //! fonts of the system.
 
 use std::borrow::Cow;
+use std::io::Read;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use flate2::read::GzDecoder;
 
 use super::font::Font;
 use super::system_fonts::SystemFonts;
+
+/// First bytes of gzip.
+const GZIP: &[u8] = &[0x1F, 0x8B];
 
 /// The embedded fonts: monospaced Hack, Ubuntu Light for more letters, and symbols. Pages get the
 /// symbols in a part of their own, for they are larger than the letters and seldom needed.
@@ -14,16 +20,34 @@ const EMBEDDED: &[&[u8]] = &[
     include_bytes!(concat!(env!("OUT_DIR"), "/hack.ttf")),
     include_bytes!(concat!(env!("OUT_DIR"), "/ubuntu.ttf")),
     #[cfg(not(target_arch = "wasm32"))]
-    SYMBOLS,
+    PACKED_SYMBOLS,
 ];
 
-/// The embedded font of symbols, which pages get where a name has one.
+/// The embedded font of symbols as gzip, which pages get where a name has one.
 #[cfg(not(target_arch = "wasm32"))]
-pub const SYMBOLS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/symbols.ttf"));
+pub const PACKED_SYMBOLS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/symbols.ttf"));
+
+/// An embedded font, unpacked and parsed when a character first needs it.
+struct EmbeddedFont {
+    file: &'static [u8],
+    font: OnceLock<Option<Arc<Font>>>,
+}
+
+impl EmbeddedFont {
+    /// `None` never occurs: the build wrote the file.
+    fn font(&self) -> Option<&Arc<Font>> {
+        let parsed = || Font::new(unpacked(self.file)?, 0).map(Arc::new);
+        self.font.get_or_init(parsed).as_ref()
+    }
+
+    fn draws(&self, c: char) -> bool {
+        self.font().is_some_and(|font| font.draws(c))
+    }
+}
 
 /// The fonts of all texts. Fonts of the system load when the first character needs them.
 pub(super) struct Fonts {
-    embedded: Vec<Arc<Font>>,
+    embedded: Vec<EmbeddedFont>,
     given: Mutex<Vec<Arc<Font>>>,
     system: Option<LazyLock<Mutex<SystemFonts>>>,
     has_missed: AtomicBool,
@@ -71,18 +95,19 @@ pub fn needs_symbols(text: &str) -> bool {
     let [letters @ .., symbols] = &*FONTS.embedded else {
         return false;
     };
-    let is_symbol = |c| symbols.draws(c) && !letters.iter().any(|font| font.draws(c));
+    let is_symbol = |c| !letters.iter().any(|font| font.draws(c)) && symbols.draws(c);
     text.chars().any(|c| !c.is_ascii() && is_symbol(c))
 }
 
 impl Fonts {
     /// The embedded fonts alone.
     pub(super) fn embedded() -> Self {
-        let fonts = EMBEDDED
-            .iter()
-            .filter_map(|data| Font::new(Cow::Borrowed(data), 0));
+        let fonts = EMBEDDED.iter().map(|file| EmbeddedFont {
+            file,
+            font: OnceLock::new(),
+        });
         Self {
-            embedded: fonts.map(Arc::new).collect(),
+            embedded: fonts.collect(),
             given: Mutex::default(),
             system: None,
             has_missed: AtomicBool::new(false),
@@ -96,7 +121,8 @@ impl Fonts {
             return previous.cloned();
         }
         let draws = |font: &&Arc<Font>| font.draws(c);
-        let found = self.embedded.iter().find(draws).cloned();
+        let mut embedded = self.embedded.iter().filter_map(EmbeddedFont::font);
+        let found = embedded.find(draws).cloned();
         let found = found.or_else(|| self.given().iter().find(draws).cloned());
         let found = found.or_else(|| {
             let system = self.system.as_ref()?;
@@ -120,6 +146,16 @@ impl Fonts {
     fn given(&self) -> MutexGuard<'_, Vec<Arc<Font>>> {
         self.given.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// The font in an embedded file, which is gzip but in pages. `None` if it is damaged.
+fn unpacked(file: &'static [u8]) -> Option<Cow<'static, [u8]>> {
+    if !file.starts_with(GZIP) {
+        return Some(Cow::Borrowed(file));
+    }
+    let mut font = Vec::new();
+    GzDecoder::new(file).read_to_end(&mut font).ok()?;
+    Some(Cow::Owned(font))
 }
 
 /// Returns `true` if a character belongs to the one before: combining marks, joiners, variation
@@ -153,7 +189,7 @@ mod tests {
         assert!(!has_missed());
         assert!(fonts.find('⚡', None).is_none() && has_missed());
         assert!(!fonts.add(b"no font".to_vec()));
-        assert!(fonts.add(SYMBOLS.to_vec()));
+        assert!(fonts.add(unpacked(PACKED_SYMBOLS).unwrap().into_owned()));
         assert!(fonts.find('⚡', None).is_some() && !has_missed());
         assert!(fonts.find('\u{10FFFD}', None).is_none() && has_missed());
     }

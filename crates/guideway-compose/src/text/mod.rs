@@ -20,7 +20,7 @@ mod shape;
 mod system_fonts;
 
 #[cfg(not(target_arch = "wasm32"))]
-pub use fonts::{SYMBOLS, needs_symbols};
+pub use fonts::{PACKED_SYMBOLS, needs_symbols};
 pub use fonts::{SystemFont, add_font, has_missed_letters, system_font};
 pub(crate) use rasterize::{Curve, LinePlace};
 pub(crate) use shape::ShapedLine;

@@ -22,10 +22,8 @@ use super::error::{Exit, json_error, usage_error};
 use super::input::{self, Input};
 use super::output::{Output, save};
 use super::picture_output::PictureOutput;
-use super::{text, values};
+use super::{packed, text, values};
 
-/// The example site, part of the program so that the demo runs anywhere.
-const SITE: &[u8] = include_bytes!("../../examples/site.lif.json");
 const SITE_NAME: &str = "crates/guideway/examples/site.lif.json";
 /// Seed of the crowd.
 const SEED: u64 = 1;
@@ -56,7 +54,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "Name another one, such as `guideway demo -o /tmp/demo`",
         )
     })?;
-    save(&folder.join("site.lif.json"), SITE)?;
+    save(&folder.join("site.lif.json"), packed::site()?.as_bytes())?;
     let faulty = faulty_site()?;
     save(&folder.join("faulty.lif.json"), &faulty)?;
     let (site, rendered) = draw_site(folder, out)?;
@@ -89,7 +87,12 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
 
 /// The layout of the example site.
 pub(super) fn read_site() -> Result<Layout, UserError> {
-    Ok(read_bytes(SITE_NAME, SITE, &ReadOptions::default())?)
+    let site = packed::site()?;
+    Ok(read_bytes(
+        SITE_NAME,
+        site.as_bytes(),
+        &ReadOptions::default(),
+    )?)
 }
 
 /// The site with stations, arrows, names and speeds.
@@ -189,7 +192,7 @@ fn draw_findings(folder: &Path, faulty: &[u8], out: &Output) -> Result<(Made, St
 /// The example site with faults as they occur in practice.
 fn faulty_site() -> Result<Vec<u8>, UserError> {
     let fail = |error: &serde_json::Error| json_error(error, "Report this as a bug of the demo");
-    let mut site: Value = serde_json::from_slice(SITE).map_err(|error| fail(&error))?;
+    let mut site: Value = serde_json::from_str(&packed::site()?).map_err(|error| fail(&error))?;
     let hall = &mut site["layouts"][0];
     // A node that was moved without its edges, and edges to a node that was renamed.
     set(hall, "nodes", "nodeId", "dock-3-009", |node| {

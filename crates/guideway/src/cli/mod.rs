@@ -32,6 +32,7 @@ mod methods;
 mod network;
 mod number_args;
 mod output;
+mod packed;
 #[cfg(panic = "abort")]
 mod panic;
 mod part_progress;

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use super::error::{Exit, json_error, usage_error};
 use super::input::check_no_stdout;
 use super::output::{self, Output};
+use super::packed;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct CompletionsArgs {
@@ -23,9 +24,6 @@ pub(crate) struct ManArgs {
     dir: Option<PathBuf>,
 }
 
-/// JSON Schema of all answers: `$defs` has one per command.
-const ANSWERS: &str = include_str!("../../docs/answers.schema.json");
-
 #[derive(Debug, clap::Args)]
 pub(crate) struct SchemaArgs {
     /// The command, or `error`; all of them without it
@@ -34,7 +32,8 @@ pub(crate) struct SchemaArgs {
 
 pub(crate) fn schema(args: &SchemaArgs, out: &Output) -> Result<Exit, UserError> {
     let remedy = "Report this as a bug of the program";
-    let schema = serde_json::from_str(ANSWERS).map_err(|error| json_error(&error, remedy));
+    let schema =
+        serde_json::from_str(&packed::answers()?).map_err(|error| json_error(&error, remedy));
     let mut schema: Value = schema?;
     if let Some(command) = &args.command {
         if schema["$defs"].get(command).is_none() {

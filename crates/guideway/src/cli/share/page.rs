@@ -1,11 +1,10 @@
 //! The page of this build: one HTML file with the engine for browsers, into which a layout is put.
 
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
-use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use guideway::envelope::EnvelopeSource;
 use guideway::layout::UserError;
@@ -14,6 +13,7 @@ use serde_json::{Value, json};
 
 use crate::cli::envelope;
 use crate::cli::floor_plan::PackedPlan;
+use crate::cli::packed::unpacked;
 
 /// The page without engine and layout, as gzip: `cargo xtask web` makes it.
 const PAGE: &[u8] = include_bytes!("../../../page/page.html.gz");
@@ -90,8 +90,8 @@ pub(super) fn page(
     let mut shared = json!({ "name": name, "title": title, "look": look });
     let mut files = packed("layout", name, content.layout)?;
     if content.has_symbols {
-        let symbols = pack(guideway::compose::SYMBOLS);
-        files += &script("text/plain", "symbols", &BASE64_STANDARD.encode(symbols));
+        let symbols = BASE64_STANDARD.encode(guideway::compose::PACKED_SYMBOLS);
+        files += &script("text/plain", "symbols", &symbols);
     }
     if let Some(plan) = content.plan {
         shared["floorPlan"] = described(plan);
@@ -101,9 +101,7 @@ pub(super) fn page(
     let shared = shared.to_string().replace('<', "\\u003c");
     let engine = script("text/plain", "engine", &BASE64_STANDARD.encode(ENGINE));
     let shared = script("application/json", "shared", &shared);
-    let mut page = String::new();
-    let unpacked = GzDecoder::new(PAGE).read_to_string(&mut page);
-    unpacked.map_err(|problem| broken(&problem.to_string()))?;
+    let page = unpacked(PAGE, "the page")?;
     let parts = page.split_once(ENGINE_PLACE).and_then(|(head, rest)| {
         let (middle, tail) = rest.split_once(SHARED_PLACE)?;
         Some([head, &engine, middle, &shared, &files, tail].concat())
@@ -164,6 +162,10 @@ fn broken(problem: &str) -> UserError {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Read;
+
+    use flate2::read::GzDecoder;
+
     use super::*;
 
     #[test]
@@ -179,11 +181,11 @@ mod tests {
         assert!(!made.contains("alert(1)</script"), "the title is no script");
         assert!(made.contains("connect-src 'none'"));
         let layout = pack(b"{}");
-        let symbols = pack(guideway::compose::SYMBOLS);
+        let symbols = guideway::compose::PACKED_SYMBOLS;
         for (id, content) in [
             ("engine", ENGINE),
             ("layout", &layout),
-            ("symbols", &symbols),
+            ("symbols", symbols),
         ] {
             let start = format!("id=\"{id}\">");
             let (_, rest) = made.split_once(&start).unwrap();
