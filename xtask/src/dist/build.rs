@@ -60,6 +60,10 @@ pub const WINDOW: [&str; 6] = [
     "-Copt-level=3",
 ];
 
+/// Joins functions of the same instructions, of which generic code has many: a fortieth of the
+/// program. No code compares functions by their addresses.
+const FOLDED: &str = "-Clink-arg=-Wl,--icf=all";
+
 /// Flags of the C compiler that leave out what no level of compression in use needs of zstd.
 pub const ZSTD_FLAGS: &str = "-DZSTD_EXCLUDE_GREEDY_BLOCK_COMPRESSOR \
      -DZSTD_EXCLUDE_LAZY_BLOCK_COMPRESSOR -DZSTD_EXCLUDE_LAZY2_BLOCK_COMPRESSOR \
@@ -73,14 +77,16 @@ pub const ZSTD_FLAGS: &str = "-DZSTD_EXCLUDE_GREEDY_BLOCK_COMPRESSOR \
 pub fn release(top: &Path) -> Result<Binaries> {
     let script = top.join("packaging/no-unwinding.ld");
     let script = format!("-Clink-arg=-Wl,-T,{}", script.display());
-    // The linkers of other systems know no such script, and the tables stay.
-    let tables: &[&str] = match cfg!(target_os = "linux") {
+    // The linkers of other systems know neither such a script nor folding.
+    let is_linux = cfg!(target_os = "linux");
+    let tables: &[&str] = match is_linux {
         true => &[&script, "-Clink-arg=-Wl,--no-eh-frame-hdr"],
         false => &[],
     };
-    let folder = build(top, &[&COMMAND, tables].concat(), PROFILE)?;
+    let folded: &[&str] = if is_linux { &[FOLDED] } else { &[] };
+    let folder = build(top, &[&COMMAND, folded, tables].concat(), PROFILE)?;
     let command = Binaries::in_folder(&folder).command;
-    let folder = build(top, &WINDOW, UNWINDING_PROFILE)?;
+    let folder = build(top, &[&WINDOW, folded].concat(), UNWINDING_PROFILE)?;
     let window = Binaries::in_folder(&folder).window;
     Ok(Binaries { command, window })
 }
