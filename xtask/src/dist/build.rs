@@ -77,13 +77,16 @@ pub const ZSTD_FLAGS: &str = "-DZSTD_EXCLUDE_GREEDY_BLOCK_COMPRESSOR \
 pub fn release(top: &Path) -> Result<Binaries> {
     let script = top.join("packaging/no-unwinding.ld");
     let script = format!("-Clink-arg=-Wl,-T,{}", script.display());
-    // The linkers of other systems know neither such a script nor folding.
-    let is_linux = cfg!(target_os = "linux");
-    let tables: &[&str] = match is_linux {
+    // The linkers of other systems know no such script, and the tables stay.
+    let tables: &[&str] = match cfg!(target_os = "linux") {
         true => &[&script, "-Clink-arg=-Wl,--no-eh-frame-hdr"],
         false => &[],
     };
-    let folded: &[&str] = if is_linux { &[FOLDED] } else { &[] };
+    // Rust links by LLD there, and elsewhere by linkers that may not fold.
+    let folded: &[&str] = match cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        true => &[FOLDED],
+        false => &[],
+    };
     let folder = build(top, &[&COMMAND, folded, tables].concat(), PROFILE)?;
     let command = Binaries::in_folder(&folder).command;
     let folder = build(top, &[&WINDOW, folded].concat(), UNWINDING_PROFILE)?;
