@@ -82,7 +82,8 @@ pub fn measure(
             "Use a file for which `guideway check` reports no errors",
         ));
     }
-    user.wait(App::is_settled)?;
+    // The probe of the methods asks for a frame of its own.
+    user.wait(|app| app.is_settled() && !app.methods.choices().is_empty())?;
     Ok(vec![
         user.movement("still", |_, _| Vec::new())?,
         user.movement("hover", |number, _| {

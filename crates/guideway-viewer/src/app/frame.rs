@@ -1,7 +1,6 @@
 //! One frame: takes the results of background threads, shows all parts, and routes their actions.
 
 use std::mem;
-use std::thread;
 use std::time::Duration;
 
 use eframe::egui::{CentralPanel, Context, CursorIcon, Frame, Panel, Ui, ViewportCommand};
@@ -9,13 +8,10 @@ use guideway_document::Document;
 use guideway_spline::Affine;
 
 use super::state::App;
-use crate::backdrop::ActiveDocument;
 use crate::canvas::CanvasPainter;
-use crate::files::{Layer, LayerContext, LayerEvent};
+use crate::files::{Layer, LayerContext};
 use crate::language::{say, set_language};
 use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
-use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
-use crate::services::LoadStage;
 use crate::tools::Gesture;
 use crate::units::set_units;
 
@@ -38,6 +34,7 @@ impl App {
         self.poll(&ctx);
         self.take_input(&ctx);
         self.take_hover(&ctx);
+        self.begin_with_picture(&ctx);
         self.follow_theme(&ctx);
         self.remember(&ctx);
         self.update_title(&ctx);
@@ -227,30 +224,6 @@ impl App {
         }
     }
 
-    /// Requests the pictures of the present view.
-    fn request_pictures(&mut self) {
-        let Some(view) = self.canvas.picture_view() else {
-            return;
-        };
-        let style = self.settings.style(self.canvas.px_per_point());
-        let layers = self.files.layers_mut().iter_mut();
-        for layer in layers.filter(|layer| layer.is_visible) {
-            layer.picture.request(RenderRequest { view, style });
-        }
-        let LayerContext {
-            services, repaint, ..
-        } = &self.context;
-        let file_index = self.files.active_index();
-        let document = self.files.document();
-        let active = document.map(|document| ActiveDocument {
-            file_index,
-            document,
-        });
-        self.swept_areas.request(active, &view, services, repaint);
-        self.floor_plan
-            .request(&view, self.settings.is_dark, repaint);
-    }
-
     /// Takes the results of all background threads.
     fn poll(&mut self, ctx: &Context) {
         self.poll_layers(ctx);
@@ -259,7 +232,7 @@ impl App {
             services, repaint, ..
         } = &self.context;
         let has_pictures = self.files.layers().iter().all(Layer::has_picture_or_error);
-        if self.methods.poll(has_pictures, services, repaint) {
+        if self.methods.poll(has_pictures, ctx, services, repaint) {
             self.files.set_method(self.methods.name());
         }
         if let Some(element) = self.find.poll(self.files.document()) {
@@ -276,14 +249,6 @@ impl App {
         self.poll_files(ctx);
     }
 
-    fn poll_layers(&mut self, ctx: &Context) {
-        for index in 0..self.files.layers().len() {
-            for event in self.files.poll_layer(ctx, index) {
-                self.take_event(event, index);
-            }
-        }
-    }
-
     /// Checks the active file again after a change.
     fn refresh_findings(&mut self, ctx: &Context) {
         let (now_s, options) = (ctx.input(|input| input.time), self.findings.check_options());
@@ -296,59 +261,6 @@ impl App {
         });
         if let Some(wait) = wait {
             ctx.request_repaint_after(wait);
-        }
-    }
-
-    fn take_event(&mut self, event: LayerEvent, index: usize) {
-        match event {
-            LayerEvent::Appeared(bounds) => {
-                if index == 0
-                    && let Some((center_m, px_per_m)) = self.project.view.take()
-                {
-                    self.canvas.camera.look_at(center_m, px_per_m);
-                } else if let Some(bounds) = bounds {
-                    self.canvas.camera.fit_file(bounds, index == 0);
-                }
-            }
-            LayerEvent::Reached(stage) => {
-                let path = self.files.layers()[index].path();
-                self.context.services.on_stage(stage, path);
-                if stage == LoadStage::Editable {
-                    let options = self.settings.scene_options();
-                    self.files.recolor_one(index, &options);
-                    self.restore_level(index);
-                    // They may show the replaced document.
-                    self.swept_areas.clear();
-                }
-                if stage == LoadStage::Read {
-                    let notice = self.files.remember(index);
-                    self.notify_all(notice);
-                }
-            }
-            LayerEvent::FellBack(why) => {
-                // All files share the device, so each reports the failure.
-                if self.methods.name() != FALLBACK_METHOD {
-                    self.dialogs.notices.add(why);
-                    self.set_method(Some(FALLBACK_METHOD.to_owned()));
-                }
-            }
-            LayerEvent::Notice(text) => self.dialogs.notices.add(text),
-        }
-    }
-
-    /// Delays all frames but the first until a file has a picture: see
-    /// [`FIRST_PICTURE_WAIT`](super::FIRST_PICTURE_WAIT).
-    fn wait_for_first_picture(&mut self, ctx: &Context) {
-        const STEP: Duration = Duration::from_millis(2);
-        while self.canvas.camera.view().is_some()
-            && !self.files.layers().is_empty()
-            && !self.files.layers().iter().any(Layer::has_picture_or_error)
-            && !self.first_picture_wait.is_zero()
-        {
-            self.request_pictures();
-            thread::sleep(STEP);
-            self.first_picture_wait = self.first_picture_wait.saturating_sub(STEP);
-            self.poll_layers(ctx);
         }
     }
 

@@ -3,6 +3,7 @@
 //! | step | input | output | file |
 //! |---|---|---|---|
 //! | start | launch options | [`App`] with all parts, files that load | `state`, `opening` |
+//! | pictures | views, files that load | requests, the first frame with a picture | `pictures` |
 //! | frame | results of threads, input of egui | shown parts, actions | `frame` |
 //! | remember | settings and window | a file in the state folder | `remember` |
 //! | input | keys, texts and pointer events, in order | commands, events of the tools | `input` |
@@ -27,6 +28,7 @@ mod input;
 mod open_project;
 mod opening;
 mod picking;
+mod pictures;
 mod project;
 mod remember;
 mod routing;

@@ -29,6 +29,8 @@ use crate::tools::{OtherHit, Tools};
 /// occupies both cores of an office laptop, which the first picture needs; until then the window
 /// stays empty.
 pub(crate) const FIRST_PICTURE_WAIT: Duration = Duration::from_millis(700);
+/// Longest part of it before the window is on the screen.
+pub(super) const FIRST_FRAME_WAIT: Duration = Duration::from_millis(300);
 
 /// The parts of the application.
 pub(crate) struct App {

@@ -30,6 +30,8 @@ pub(crate) struct PartialRedraw {
     damage: DamageMap,
     /// Size in texels of each texture of egui.
     textures: HashMap<TextureId, [usize; 2]>,
+    /// The parts of textures that changed since the last frame was drawn.
+    changes: HashMap<TextureId, Rect>,
     /// Pixels that each frame drew.
     #[cfg(test)]
     pub(crate) drawn: Vec<u64>,
@@ -44,6 +46,7 @@ impl PartialRedraw {
             picture: None,
             damage: DamageMap::default(),
             textures: HashMap::new(),
+            changes: HashMap::new(),
             #[cfg(test)]
             drawn: Vec::new(),
         }
@@ -51,8 +54,8 @@ impl PartialRedraw {
 
     /// Brings the picture up to a frame.
     fn draw(&mut self, frame: &FrameTriangles, textures: &mut TexturesDelta) -> &Picture {
-        let changes = self.changed_texels(textures);
-        self.upload(textures);
+        self.take_textures(textures);
+        let changes = mem::take(&mut self.changes);
         let picture = match self.picture.take() {
             Some(picture) if picture.size == frame.size => picture,
             _ => {
@@ -74,10 +77,15 @@ impl PartialRedraw {
         self.picture.insert(picture)
     }
 
-    /// The part of each texture that a frame changes, in coordinates of the texture, with the
+    /// Uploads textures, and notes their changed parts.
+    fn take_textures(&mut self, textures: &mut TexturesDelta) {
+        self.note_changed_texels(textures);
+        self.upload(textures);
+    }
+
+    /// Notes the part of each texture that a frame changes, in coordinates of the texture, with the
     /// texels beside it, which a linear filter mixes with it.
-    fn changed_texels(&mut self, textures: &TexturesDelta) -> HashMap<TextureId, Rect> {
-        let mut changes = HashMap::new();
+    fn note_changed_texels(&mut self, textures: &TexturesDelta) {
         for (&id, images) in &textures.set {
             for image in images {
                 let size = image.image.size();
@@ -98,11 +106,10 @@ impl PartialRedraw {
                         Rect::EVERYTHING
                     }
                 };
-                let all = changes.entry(id).or_insert(changed);
+                let all = self.changes.entry(id).or_insert(changed);
                 *all = all.union(changed);
             }
         }
-        changes
     }
 
     fn upload(&self, textures: &mut TexturesDelta) {
@@ -155,10 +162,22 @@ impl Plugin for PartialRedraw {
         if ctx.viewport_id() != ViewportId::ROOT || size.contains(&0) {
             return;
         }
+        if is_discarded(ctx, output) {
+            // The next pass uses its textures.
+            self.take_textures(&mut output.textures_delta);
+            return;
+        }
         let primitives = ctx.tessellate(mem::take(&mut output.shapes), scale);
         let frame = FrameTriangles::new(primitives, size, scale);
         let picture = self.draw(&frame, &mut output.textures_delta);
         let shape = picture.shape(window);
         output.shapes = vec![ClippedShape::new(window, shape)];
     }
+}
+
+/// Returns `true` if egui lays the frame out once more.
+fn is_discarded(ctx: &Context, output: &FullOutput) -> bool {
+    let output = &output.platform_output;
+    let most = ctx.options(|options| options.max_passes.get());
+    output.requested_discard() && output.num_completed_passes < most
 }

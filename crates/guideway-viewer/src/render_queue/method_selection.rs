@@ -1,12 +1,19 @@
 //! The render method: the user's choice, or else the best that runs on this computer.
 
 use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui::Context;
 
 use crate::background::{BackgroundTask, RepaintHandle};
 use crate::services::{AppServices, MethodChoice};
 
 /// The method that runs on every computer.
 pub(crate) const FALLBACK_METHOD: &str = "cpu";
+
+/// Time for which the probe leaves the processor to the first picture: on a software renderer it
+/// takes that long from the frame that has it to the screen.
+const PROBE_WAIT: Duration = Duration::from_millis(400);
 
 /// The available methods and the selected one.
 pub(crate) struct MethodSelection {
@@ -20,7 +27,8 @@ pub(crate) struct MethodSelection {
 /// Finds out which methods run here. To start one may take a driver a second and all cores, so the
 /// probe waits for the first picture.
 enum Probe {
-    Waiting,
+    /// Until this time, in seconds, once there are pictures.
+    Waiting(Option<f64>),
     Running(BackgroundTask<Vec<MethodChoice>>),
     Done,
 }
@@ -30,7 +38,7 @@ impl MethodSelection {
         Self {
             choices: Vec::new(),
             chosen,
-            probe: Probe::Waiting,
+            probe: Probe::Waiting(None),
         }
     }
 
@@ -63,16 +71,23 @@ impl MethodSelection {
         available.next().map_or(FALLBACK_METHOD, |c| &c.name)
     }
 
-    /// Starts the probe once every file has a picture, and takes its result. Returns whether the
-    /// method to render with has changed.
+    /// Starts the probe once every file has a picture on the screen, and takes its result. Returns
+    /// whether the method to render with has changed.
     pub(crate) fn poll(
         &mut self,
         has_pictures: bool,
+        ctx: &Context,
         services: &Arc<dyn AppServices>,
         repaint: &RepaintHandle,
     ) -> bool {
         match &self.probe {
-            Probe::Waiting if has_pictures => {
+            Probe::Waiting(None) if has_pictures => {
+                let begins_s = ctx.input(|input| input.time) + PROBE_WAIT.as_secs_f64();
+                self.probe = Probe::Waiting(Some(begins_s));
+                ctx.request_repaint_after(PROBE_WAIT);
+                false
+            }
+            Probe::Waiting(Some(begins_s)) if ctx.input(|input| input.time) >= *begins_s => {
                 let services = Arc::clone(services);
                 let task = BackgroundTask::start(repaint, move || services.methods());
                 self.probe = Probe::Running(task);
@@ -86,7 +101,7 @@ impl MethodSelection {
                 self.choices = choices.unwrap_or_default();
                 self.chosen.is_none() && self.best() != FALLBACK_METHOD
             }
-            Probe::Waiting | Probe::Done => false,
+            Probe::Waiting(_) | Probe::Done => false,
         }
     }
 }
