@@ -7,6 +7,7 @@
 //! | [`Index`] | layout | paths and nodes near a place, paths at a node |
 //! | [`pick`], [`pick_element`], [`nearest`] | a point | the path or element under it |
 //! | [`Query`], [`search`], [`locate`] | text | paths, nodes, stations |
+//! | [`Group`] | a level, a vehicle type | the elements that belong to it |
 //! | [`measure`] | a path | lengths and radii |
 //! | [`decorations`] | document, view, settings | marks, outlines and draw lists |
 //! | [`fixes()`] | a finding | edits that resolve it |
@@ -22,6 +23,7 @@ mod edit_observer;
 mod element;
 mod elements;
 mod fixes;
+mod group;
 mod history;
 mod index;
 mod journal;
@@ -32,6 +34,7 @@ mod pick_element;
 mod query;
 mod reverse_pairs;
 mod search;
+mod select_mode;
 mod selection;
 mod snap;
 mod snapshot;
@@ -40,14 +43,15 @@ mod view_history;
 pub use change::{Change, CopiesOf, NodeMoves};
 pub use document::Document;
 pub use edit::{
-    AlignTo, Clip, Drawing, DrawnCurve, EdgeTemplate, LevelContent, LevelFacts, Neighbors,
-    NewCells, NewEdge, OperationError, PointRef, PropertyRef, PropertyValues, Shape, ShapeError,
-    TypeUse, Welded, drawn_path,
+    AlignTo, Clip, Drawing, DrawnCurve, EdgeTemplate, LevelContent, LevelFact, LevelFacts,
+    Neighbors, NewCells, NewEdge, OperationError, PointRef, PropertyRef, PropertyValues, Shape,
+    ShapeError, TypeUse, Welded, drawn_path,
 };
 pub use edit_observer::SceneChange;
 pub use element::Element;
 pub use elements::Elements;
 pub use fixes::{Fix, FixError, ProposedFix, fix_all, fixes, has_fixes};
+pub use group::Group;
 pub use guideway_layout::text_format;
 pub use history::SavedState;
 pub use index::Index;
@@ -58,8 +62,8 @@ pub use pick_element::pick_element;
 pub use query::{Column, Query, QueryError};
 pub use reverse_pairs::ReversePairs;
 pub use roaring::RoaringBitmap as PathSet;
-pub use search::search;
-pub use selection::SelectMode;
+pub use search::{search, search_groups};
+pub use select_mode::SelectMode;
 pub use snap::{SnapOptions, SnapTarget, Snapped};
 pub use snapshot::Snapshot;
 pub use view_history::ViewHistory;

@@ -1,8 +1,9 @@
-//! Search: finds paths, nodes and stations by a part of their identifier.
+//! Search: finds paths, nodes, stations, levels and vehicle types by a part of their identifier.
 
 use guideway_layout::Layout;
 
 use crate::element::Element;
+use crate::group::Group;
 
 /// Number of rows of a table, and the constructor of its elements.
 type Table = (usize, fn(u32) -> Element);
@@ -32,4 +33,21 @@ pub fn search(layout: &Layout, text: &str, limit: usize) -> Vec<Element> {
         found.extend(others.take(limit));
     }
     found
+}
+
+/// Levels and vehicle types whose identifier or name contains `text`, ignoring case.
+pub fn search_groups(layout: &Layout, text: &str) -> Vec<Group> {
+    if text.is_empty() {
+        return Vec::new();
+    }
+    let lowercase = text.to_lowercase();
+    let contains = |name: &str| name.to_lowercase().contains(&lowercase);
+    let levels = layout.levels.iter().zip(0..);
+    let levels = levels.filter(|(l, _)| contains(&l.id) || l.name.as_deref().is_some_and(contains));
+    let types = layout.vehicle_type_names().into_iter();
+    let types = types.filter(|name| contains(name));
+    levels
+        .map(|(_, row)| Group::Level(row))
+        .chain(types.map(|name| Group::VehicleType(name.to_owned())))
+        .collect()
 }

@@ -8,20 +8,8 @@ use guideway_spline::{Bounds, uniform};
 
 use crate::PathSet;
 use crate::document::Document;
-use crate::element::Element;
 use crate::elements::Elements;
-
-/// Combination of a new selection with the present one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SelectMode {
-    /// Replaces the present selection.
-    #[default]
-    Replace,
-    /// Adds to the present selection.
-    Add,
-    /// Removes from the present selection.
-    Remove,
-}
+use crate::select_mode::SelectMode;
 
 impl Document {
     /// Rows of the selected paths.
@@ -39,21 +27,11 @@ impl Document {
         self.select_elements(&Elements::of_paths(paths), mode);
     }
 
-    /// Selects elements; those that are not shown are ignored.
+    /// Selects elements, levels and vehicle types. Elements that are not shown are ignored.
     pub fn select_elements(&mut self, elements: &Elements, mode: SelectMode) {
         self.revision += 1;
-        let mut selection = Elements::default();
-        for of in Table::ALL {
-            let present = self.selection.rows(of);
-            let chosen = elements.rows(of).iter();
-            let chosen: PathSet = chosen.filter(|&row| self.is_shown(of, row)).collect();
-            *selection.rows_mut(of) = match mode {
-                SelectMode::Replace => chosen,
-                SelectMode::Add => present | &chosen,
-                SelectMode::Remove => present - &chosen,
-            };
-        }
-        self.selection = Arc::new(selection);
+        let shown = self.shown_of(elements);
+        self.selection = Arc::new(self.selection.combined(shown, mode));
     }
 
     /// Selects what is inside a box in meters, and paths that cross its border if `crossing` is
@@ -78,6 +56,7 @@ impl Document {
             paths,
             nodes,
             stations,
+            ..Elements::default()
         };
         self.select_elements(&found, mode);
     }
@@ -90,24 +69,22 @@ impl Document {
             nodes: self.existing(Table::Nodes).filter(ends_only).collect(),
             stations: self.existing(Table::Stations).collect(),
             paths,
+            ..Elements::default()
         };
         self.select_elements(&all, SelectMode::Replace);
     }
 
     /// Bounding box of what is selected, in meters; `None` without a selection.
     pub fn selection_bounds(&self) -> Option<Bounds<f64>> {
-        let selected = &self.selection;
-        let elements = (selected.paths.iter().map(Element::Path))
-            .chain(selected.nodes.iter().map(Element::Node))
-            .chain(selected.stations.iter().map(Element::Station));
-        elements
-            .filter_map(|element| self.bounds_of(element))
-            .reduce(Bounds::union)
+        self.bounds_of_all(&self.selection)
     }
 
-    /// Hides the selected paths. Visibility is not part of the undo history.
+    /// Hides the selected paths and levels. Visibility is not part of the undo history.
     pub fn hide_selection(&mut self) {
         let selection = std::mem::take(&mut self.selection);
+        for level in &selection.levels {
+            self.set_level_shown(level, false);
+        }
         self.set_visibility(selection.paths.iter(), PathState::Hidden);
     }
 
@@ -182,20 +159,36 @@ impl Document {
         }
     }
 
-    /// Removes elements that are not shown from the selection.
+    /// Removes what is not shown from the selection.
     pub(crate) fn deselect_hidden(&mut self) {
         let is_shown = |of| {
             let mut rows = self.selection.rows(of).iter();
             rows.all(|row| self.is_shown(of, row))
         };
-        if !Table::ALL.into_iter().all(is_shown) {
-            let mut shown = Elements::default();
-            for of in Table::ALL {
-                let rows = self.selection.rows(of).iter();
-                *shown.rows_mut(of) = rows.filter(|&row| self.is_shown(of, row)).collect();
-            }
-            self.selection = Arc::new(shown);
+        let mut groups = self.selection.groups();
+        if !(Table::ALL.into_iter().all(is_shown) && groups.all(|g| self.contains_group(&g))) {
+            drop(groups);
+            self.selection = Arc::new(self.shown_of(&self.selection));
         }
+    }
+
+    /// The elements that are shown, and the levels and vehicle types that exist.
+    fn shown_of(&self, all: &Elements) -> Elements {
+        let rows = |of: Table| -> PathSet {
+            let rows = all.rows(of).iter();
+            rows.filter(|&row| self.is_shown(of, row)).collect()
+        };
+        let [paths, nodes, stations] = Table::ALL.map(rows);
+        let mut shown = Elements {
+            paths,
+            nodes,
+            stations,
+            ..Elements::default()
+        };
+        for group in all.groups().filter(|group| self.contains_group(group)) {
+            shown.insert_group(group);
+        }
+        shown
     }
 
     /// Returns `true` if a path is shown, or a node or station exists on a level that is shown.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use guideway_compose::VectorFormat;
-use guideway_document::{Element, SelectMode};
+use guideway_document::{Element, Group, SelectMode};
 use guideway_layout::CheckOptions;
 
 use crate::backdrop::PlanPlacement;
@@ -25,7 +25,7 @@ pub(crate) enum Action {
         old: String,
         new: String,
     },
-    /// Opens the dialog of a level or a vehicle type.
+    /// Opens the dialog of a new level or vehicle type.
     ShowGroup(GroupRequest),
     /// Selects the paths that match the query of the find panel.
     SelectByQuery(SelectMode),
@@ -33,6 +33,8 @@ pub(crate) enum Action {
     Search,
     /// Zooms to an element and selects it if it is a path.
     ZoomTo(Element),
+    /// Zooms to what belongs to a level or a vehicle type, and selects it.
+    ZoomToGroup(Group),
     /// Zooms to an element of the file of this index, which may not be the active one.
     FlyTo(usize, Element),
     /// Checks the active document.
@@ -91,15 +93,11 @@ pub(crate) enum Action {
     SaveAndLeave,
 }
 
-/// A level or a vehicle type to create, change or delete.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The object that a dialog creates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum GroupRequest {
     NewLevel,
-    /// The level of this row.
-    Level(u32),
     NewVehicleType,
-    /// The vehicle type of this name.
-    VehicleType(String),
 }
 
 /// A picture to write.

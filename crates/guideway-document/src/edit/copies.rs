@@ -145,6 +145,7 @@ impl<'a> Copies<'a> {
             paths: rows(self.first_rows[0], self.paths.len()),
             nodes: rows(self.first_rows[1], self.nodes.len()),
             stations: rows(self.first_rows[2], self.stations.len()),
+            ..Elements::default()
         }
     }
 

@@ -160,17 +160,6 @@ impl Document {
         Ok(())
     }
 
-    /// The existing elements of a level.
-    pub fn elements_of_level(&self, level: u32) -> Elements {
-        let mut elements = Elements::default();
-        for of in Table::ALL {
-            let rows = self.existing(of);
-            let is_here = |row: &u32| of.level(self.layout(), *row) == Some(level);
-            *elements.rows_mut(of) = rows.filter(is_here).collect();
-        }
-        elements
-    }
-
     fn zones_of_level(&self, level: u32) -> Vec<u32> {
         let zones = self.layout().zones.iter().zip(0..);
         let zones = zones.filter(|(zone, _)| zone.level == Some(level));
@@ -213,7 +202,7 @@ impl Document {
         (!rows.is_empty()).then(|| edit.into())
     }
 
-    fn known_level(&self, level: u32) -> Result<&Level, EditError> {
+    pub(super) fn known_level(&self, level: u32) -> Result<&Level, EditError> {
         let known = self.layout().levels.get(level as usize);
         known.ok_or(EditError::UnknownReference {
             what: "level",
@@ -254,6 +243,7 @@ impl Document {
             paths: elements.paths.clone(),
             nodes,
             stations,
+            ..Elements::default()
         };
         let changes = self.moves_to(&moved, level);
         Ok(self.perform("set level", changes)?)

@@ -5,12 +5,13 @@
 //! | `transform`, `node_moves`, `points` | elements, nodes, control points | moved elements, and what follows them |
 //! | `draw`, `create` | positions, nodes | new paths, nodes and stations |
 //! | `properties`, `directions`, `rename` | elements | other properties |
-//! | `levels`, `vehicle_types` | names, elements | levels, vehicle types, and elements with them |
+//! | `levels`, `vehicle_types`, `groups` | names, elements | levels, vehicle types, and elements with them |
 //! | `copies`, `clip`, `paste` | elements | copies in the same or another document |
 //! | `delete` | elements | removed rows |
 //! | `curves`, `lengths`, `names`, `property_value`, `elements`, `error` | | parts of the above |
 //! | `shapes` | paths, nodes, radii | paths that are split, joined, welded, aligned, rounded |
 //! | `perform` | [`Change`](crate::Change)s | the changed document and an undoable step |
+//! | `together` | several edits | one undoable step |
 //! | `preview` | an edit | what it does, until it is taken back |
 
 mod cells;
@@ -24,6 +25,7 @@ mod directions;
 mod draw;
 mod elements;
 mod error;
+mod groups;
 mod lengths;
 mod levels;
 mod names;
@@ -36,6 +38,7 @@ mod properties;
 mod property_value;
 mod rename;
 mod shapes;
+mod together;
 mod transform;
 mod vehicle_types;
 
@@ -46,6 +49,7 @@ pub use create::NewEdge;
 pub(crate) use curves::runs_of;
 pub use draw::drawn_path;
 pub use error::OperationError;
+pub use groups::LevelFact;
 pub use levels::{LevelContent, LevelFacts, PropertyValues};
 pub use points::PointRef;
 pub use properties::PropertyRef;

@@ -1,8 +1,9 @@
 //! Copies elements inside a document, and pastes a [`Clip`] into one.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Layout, TypeEntries};
+use guideway_layout::{Attribute, Layout, Level, TypeEntries};
 use guideway_scene::{EditError, Table, TableEdit};
 use guideway_spline::{Affine, Point};
 
@@ -61,12 +62,17 @@ impl Document {
             paths,
             nodes,
             stations,
+            ..Elements::default()
         })
     }
 
     /// Pastes copied elements, transformed, with all their properties and vehicle types. Selects
-    /// the pasted paths. A name that is taken gets a number. `level` puts everything on one level;
-    /// else each element goes to the level of the same identifier or name. Returns the new rows.
+    /// what is pasted. A name that is taken gets a number. `level` puts everything on one level;
+    /// else each element goes to the level of the same identifier or name. Returns what is new.
+    ///
+    /// A copied level becomes a new one, with its elements. A copied vehicle type may use what the
+    /// one of its name may use, with the same properties; without one it only has the properties
+    /// that it has everywhere.
     ///
     /// # Errors
     /// When the document lacks a level, has a column in another type or unit, or an element would
@@ -77,34 +83,70 @@ impl Document {
         by: Affine,
         level: Option<u32>,
     ) -> Result<Elements, OperationError> {
-        let source = clip.layout();
+        let mut pasted = Elements::default();
+        self.together("paste", |document| {
+            // Before the elements, which may name a type that is copied.
+            let copied = clip.layout().vehicle_types.iter();
+            let types = copied.map(|copied| document.copy_type(copied));
+            let types = types.collect::<Result<_, _>>()?;
+            let source = &clip.layout().levels;
+            let copied = clip.levels().iter();
+            let copied: Vec<Level> = copied.map(|row| source[row as usize].clone()).collect();
+            let rows = document.copy_levels(&copied)?;
+            let new_levels: HashMap<u32, u32> = clip.levels().iter().zip(rows.clone()).collect();
+            pasted = document.paste_elements(clip.layout(), by, level, &new_levels)?;
+            pasted.levels = rows.into_iter().collect();
+            pasted.vehicle_types = types;
+            Ok::<(), OperationError>(())
+        })?;
+        let mut selection = pasted.clone();
+        // The elements of a pasted level go with it.
+        for of in Table::ALL {
+            let rows = pasted.rows(of).iter().filter(|&row| {
+                let level = of.level(self.layout(), row);
+                level.is_none_or(|level| !pasted.levels.contains(level))
+            });
+            *selection.rows_mut(of) = rows.collect();
+        }
+        self.selection = Arc::new(selection);
+        Ok(pasted)
+    }
+
+    /// Pastes the elements of a layout. `new_levels` are the rows of the levels that come along.
+    fn paste_elements(
+        &mut self,
+        source: &Layout,
+        by: Affine,
+        level: Option<u32>,
+        new_levels: &HashMap<u32, u32>,
+    ) -> Result<Elements, OperationError> {
         let elements = Elements {
             paths: (0..source.paths.len() as u32).collect(),
             nodes: (0..source.nodes.len() as u32).collect(),
             stations: (0..source.stations.len() as u32).collect(),
+            ..Elements::default()
         };
         for of in Table::ALL {
             check_columns(of, source, self.layout())?;
         }
-        let levels = levels_of(source, self.layout(), level)?;
+        let levels = levels_of(source, self.layout(), level, new_levels)?;
         let mut copies = Copies::into(&self.scene);
-        let source = Source {
+        let all = Source {
             layout: source,
             elements: &elements,
             is_own: false,
             number: None,
             levels: Some(&levels),
         };
-        copies.add(&source, by);
+        copies.add(&all, by);
         let rows = copies.rows();
         let edits = copies.into_edits().into_iter();
         let mut changes: Vec<Change> = edits.map(Change::Scene).collect();
         for of in Table::ALL {
             let first = rows.rows(of).min().unwrap_or(0);
-            changes.extend(values_of(of, clip.layout(), first));
+            changes.extend(values_of(of, source, first));
         }
         self.perform("paste", changes)?;
-        self.selection = Arc::new(rows.clone());
         Ok(rows)
     }
 }
@@ -114,11 +156,15 @@ fn levels_of(
     source: &Layout,
     target: &Layout,
     level: Option<u32>,
+    new_levels: &HashMap<u32, u32>,
 ) -> Result<Vec<Option<u32>>, OperationError> {
     let rows = |of: Table| (0..of.row_count(source) as u32).map(move |row| (of, row));
     let used = Table::ALL.into_iter().flat_map(rows);
     let used: PathSet = used.filter_map(|(of, row)| of.level(source, row)).collect();
-    let same = |(row, of_source): (usize, &guideway_layout::Level)| {
+    let same = |(row, of_source): (usize, &Level)| {
+        if let Some(&new) = new_levels.get(&(row as u32)) {
+            return Ok(Some(new));
+        }
         let name = of_source.name.as_deref();
         let found = target.level_named(&of_source.id);
         let found = found.or_else(|| target.level_named(name?));

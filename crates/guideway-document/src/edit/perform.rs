@@ -8,6 +8,7 @@ use guideway_scene::{Edit, EditError, PathState, Table, TableEdit};
 use guideway_spline::{Point, Runs};
 
 use super::curves::geometry_of;
+use crate::PathSet;
 use crate::change::{Change, NodeMoves};
 use crate::document::Document;
 use crate::edit_observer::SceneChange;
@@ -33,6 +34,7 @@ impl Document {
                 if self.row_counts() != rows {
                     self.journal_entries.push(JournalEntry::Try(changes));
                 }
+                self.selection = selection;
                 return Err(error);
             }
         };
@@ -105,16 +107,24 @@ impl Document {
     }
 
     /// Applies the changes of a step and returns its name and inverse.
-    fn invert(&mut self, step: Step) -> (&'static str, Option<Step>) {
-        let selection = std::mem::replace(&mut self.selection, step.selection);
+    pub(super) fn invert(&mut self, step: Step) -> (&'static str, Option<Step>) {
+        // The selection of the step has rows of levels as they are after it.
+        let selection = std::mem::take(&mut self.selection);
         let Step {
             name,
             number,
             changes,
-            ..
+            selection: restored,
         } = step;
+        let level = self.level;
         // The changes were recorded in exactly this state, so none is rejected.
         let inverse = self.apply(changes).ok();
+        self.selection = restored;
+        self.deselect_hidden();
+        if level.is_some() && self.level.is_none() {
+            // The level that was shown alone is gone.
+            self.show_level(None);
+        }
         let step = inverse.map(|changes| Step {
             name,
             number,
@@ -197,7 +207,7 @@ impl Document {
     }
 
     /// Drops the last rows of all tables, and gives their memory back.
-    fn drop_rows(&mut self, rows: [usize; 3]) {
+    pub(super) fn drop_rows(&mut self, rows: [usize; 3]) {
         self.scene.truncate(rows);
         self.index = Arc::new(Index::of_scene(&self.scene));
         let replaced = SceneChange::Replaced(&self.scene);
@@ -250,15 +260,22 @@ impl Document {
         after.collect()
     }
 
-    /// Keeps the levels that are shown and drawn on, whose rows an edit may change.
+    /// Keeps the levels that are shown, selected and drawn on, whose rows an edit may change.
     fn renumber_levels(&mut self, edit: &TableEdit) {
         self.level = self.level.and_then(|level| edit.level_after(level));
         if matches!(
             edit,
             TableEdit::InsertLevel { .. } | TableEdit::RemoveLevel(_)
         ) {
-            let hidden = self.hidden_levels.iter();
-            self.hidden_levels = hidden.filter_map(|level| edit.level_after(level)).collect();
+            let after = |levels: &PathSet| -> PathSet {
+                let levels = levels.iter();
+                levels.filter_map(|level| edit.level_after(level)).collect()
+            };
+            self.hidden_levels = after(&self.hidden_levels);
+            if !self.selection.levels.is_empty() {
+                let selection = Arc::make_mut(&mut self.selection);
+                selection.levels = after(&selection.levels);
+            }
         }
     }
 

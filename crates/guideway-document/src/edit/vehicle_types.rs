@@ -1,5 +1,6 @@
 //! Creates, renames and deletes vehicle types, and sets those of paths and nodes.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use guideway_layout::{ElementKind, TypeEntries, Value, Values, VehicleType};
@@ -66,8 +67,7 @@ impl Document {
             changes.extend(self.entries_with(old, Some(new), |of, row| self.scene.exists(of, row)));
         }
         if let Some(renamed) = types.iter_mut().find(|t| t.id == old && old != new) {
-            new.clone_into(&mut renamed.id);
-            set_name_parts(renamed);
+            set_name(renamed, new);
         }
         if !properties.is_empty() {
             set_properties(&mut types, new, properties)?;
@@ -77,7 +77,14 @@ impl Document {
         if before.len() != types.len() || pairs.any(|(a, b)| a != b) {
             changes.push(TableEdit::SetVehicleTypes(types.into()).into());
         }
-        Ok(self.perform("change vehicle type", changes)?)
+        let is_selected = self.selection.vehicle_types.contains(old);
+        self.perform("change vehicle type", changes)?;
+        if is_selected && old != new {
+            let types = &mut Arc::make_mut(&mut self.selection).vehicle_types;
+            types.remove(old);
+            types.insert(new.to_owned());
+        }
+        Ok(())
     }
 
     /// Deletes a vehicle type and its properties.
@@ -162,6 +169,24 @@ impl Document {
         changes
     }
 
+    /// The changes that put a copy of a vehicle type beside it, in all elements that exist.
+    pub(super) fn entries_of_copy(&self, name: &str, copy: &str) -> Vec<Change> {
+        let of_table = |of: Table| {
+            let rows = self.users_of_type(of, name).into_iter();
+            let rows: Vec<u32> = rows.filter(|&row| self.scene.exists(of, row)).collect();
+            let entries = of.entries(self.layout()).filter(|_| !rows.is_empty())?;
+            let with_copy = |row: u32| {
+                let own = entries.of(row as usize).map(|own| (own, own));
+                own.chain([(copy, name)]).collect()
+            };
+            let entries = Arc::new(with_sources(entries, &rows, with_copy));
+            let rows = rows.into();
+            Some(TableEdit::SetEntries { of, rows, entries }.into())
+        };
+        let tables = [Table::Paths, Table::Nodes].into_iter();
+        tables.filter_map(of_table).collect()
+    }
+
     /// The rows that name a vehicle type, those of removed elements too.
     fn users_of_type(&self, of: Table, name: &str) -> Vec<u32> {
         let Some(entries) = of.entries(self.layout()) else {
@@ -171,11 +196,12 @@ impl Document {
         (0..entries.len() as u32).filter(names).collect()
     }
 
-    /// The numbers of existing paths and nodes that name a vehicle type.
-    pub fn count_users_of_type(&self, name: &str) -> [usize; 2] {
+    /// The numbers of existing paths and nodes that name one of these vehicle types.
+    pub fn count_users_of_types(&self, names: &BTreeSet<String>) -> [u64; 2] {
         [Table::Paths, Table::Nodes].map(|of| {
-            let rows = self.users_of_type(of, name).into_iter();
-            rows.filter(|&row| self.scene.exists(of, row)).count()
+            let rows = names.iter().flat_map(|name| self.users_of_type(of, name));
+            let rows = rows.filter(|&row| self.scene.exists(of, row));
+            rows.collect::<PathSet>().len()
         })
     }
 
@@ -243,9 +269,10 @@ pub(super) fn with_type<'a>(entries: &'a TypeEntries, rows: &[u32], name: &'a st
     })
 }
 
-/// Makes the parts of the name of a vehicle type those of its new name: the manufacturer stays if
-/// the name begins with it.
-fn set_name_parts(renamed: &mut VehicleType) {
+/// Gives a vehicle type another name. The parts of the name follow: the manufacturer stays if the
+/// name begins with it.
+pub(super) fn set_name(renamed: &mut VehicleType, name: &str) {
+    name.clone_into(&mut renamed.id);
     let [manufacturer, series] = NAME_PARTS;
     let kept = match renamed.attributes.value(0, manufacturer) {
         Some(Value::Text(maker)) => renamed.id.strip_prefix(maker),

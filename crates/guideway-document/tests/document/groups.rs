@@ -15,7 +15,7 @@ fn named(id: &str) -> LevelFacts<'_> {
 }
 
 /// The identifiers of the levels, and that of each path, node and station.
-fn levels(document: &Document) -> (Vec<&str>, [Vec<Option<&str>>; 3]) {
+pub(crate) fn levels(document: &Document) -> (Vec<&str>, [Vec<Option<&str>>; 3]) {
     let layout = document.layout();
     let id = |level: u32| layout.levels[level as usize].id.as_str();
     let of_rows = Table::ALL.map(|of| {
@@ -29,7 +29,7 @@ fn levels(document: &Document) -> (Vec<&str>, [Vec<Option<&str>>; 3]) {
 }
 
 /// Undoes all steps, redoes them, and replays the journal; each must give the same layout.
-fn check_history(before: &Layout, document: &mut Document) {
+pub(crate) fn check_history(before: &Layout, document: &mut Document) {
     let exact = CompareOptions {
         tolerance_m: 0.0,
         relative_tolerance: 0.0,
@@ -344,6 +344,7 @@ fn a_vehicle_type_in_use_is_deleted_only_with_a_word_about_its_paths() {
         .delete_vehicle_type("stacker", TypeUse::Remove)
         .unwrap();
     assert!(document.layout().paths.vehicle_types().of(1).eq(["crane"]));
-    assert_eq!(document.count_users_of_type("stacker"), [0, 0]);
+    let stacker = ["stacker".to_owned()].into();
+    assert_eq!(document.count_users_of_types(&stacker), [0, 0]);
     check_history(&layout, &mut document);
 }

@@ -4,6 +4,7 @@ mod copy;
 mod find;
 mod findings;
 mod fixes;
+mod group_selection;
 mod groups;
 mod growth;
 mod history;

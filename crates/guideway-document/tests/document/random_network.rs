@@ -153,6 +153,7 @@ fn perform(document: &mut Document, action: &Action) {
         paths: set(Table::Paths, paths),
         nodes: set(Table::Nodes, nodes),
         stations: set(Table::Stations, stations),
+        ..Elements::default()
     };
     let at = |path, point| PointRef {
         path: row(Table::Paths, path),

@@ -55,7 +55,7 @@ impl App {
     }
 
     /// The state of the commands in menus and the toolbar of a window of this width in points.
-    pub(super) fn command_state(&self, window_width: f32) -> CommandState<'_> {
+    pub(crate) fn command_state(&self, window_width: f32) -> CommandState<'_> {
         CommandState {
             files: &self.files,
             settings: &self.settings,

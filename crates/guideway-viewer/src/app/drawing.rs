@@ -80,7 +80,23 @@ impl App {
         }
         ctx.copy_text(format!("Guideway: {text}"));
         if cuts {
-            self.edit(EditTask::edit(Document::delete_selection));
+            self.delete_selection();
+        }
+    }
+
+    /// Deletes what is selected. Asks what becomes of the elements of levels and vehicle types.
+    pub(super) fn delete_selection(&mut self) {
+        let groups = self.files.document().filter(|d| d.selected().has_groups());
+        let edit = match groups {
+            Some(document) => {
+                let all = document.selected().clone();
+                self.dialogs.deletion.ask(document, all)
+            }
+            None => Some(EditTask::edit(Document::delete_selection)),
+        };
+        if let Some(edit) = edit {
+            self.tools.abort_drag();
+            self.edit(edit);
         }
     }
 
@@ -100,7 +116,7 @@ impl App {
         self.edit(paste);
     }
 
-    /// Opens the dialog of a level or a vehicle type.
+    /// Opens the dialog of a new level or vehicle type.
     pub(super) fn show_group(&mut self, request: GroupRequest) {
         self.tools.abort_drag();
         match self.files.document() {
@@ -149,12 +165,14 @@ impl App {
     }
 
     /// Moves the selection by one step of the grid in the direction of an arrow key. Returns
-    /// `false` if nothing is selected.
+    /// `false` if no element is selected.
     pub(super) fn nudge(&mut self, command: Command) -> bool {
         let Some(view) = self.canvas.camera.view() else {
             return false;
         };
-        if self.tools.tool().adds_points() || !self.has_selection() {
+        let document = self.files.document();
+        let has_elements = document.is_some_and(|document| document.selected().has_elements());
+        if self.tools.tool().adds_points() || !has_elements {
             return false;
         }
         let step_m = self.settings.grid_step_m(&view, self.canvas.px_per_point());

@@ -72,6 +72,7 @@ impl App {
             };
             bar.show(ui);
         });
+        self.hovered_group = None;
         if self.side.is_open(width) {
             let most = (width - MIN_CANVAS_WIDTH).max(MIN_SIDE_PANEL_WIDTH);
             let side = Panel::right("side").default_size(self.panel_width);
@@ -144,6 +145,7 @@ impl App {
             settings: &mut self.settings,
             swept_areas: &mut self.swept_areas,
             findings: &mut self.findings,
+            hovered_group: &mut self.hovered_group,
             properties: &mut self.properties,
             methods: &self.methods,
         };
@@ -179,7 +181,12 @@ impl App {
                 } else {
                     Duration::ZERO
                 };
-                layer.slot.request_overlay(&view, &options, wait, repaint);
+                let hovered = self.hovered_group.as_ref();
+                let hovered = hovered.filter(|(file, _)| *file == index);
+                let highlighted = hovered.map(|(_, group)| group);
+                layer
+                    .slot
+                    .request_overlay(&view, &options, highlighted, wait, repaint);
             }
         }
         let screen = self.canvas.screen();
@@ -235,8 +242,8 @@ impl App {
         if self.methods.poll(has_pictures, ctx, services, repaint) {
             self.files.set_method(self.methods.name());
         }
-        if let Some(element) = self.find.poll(self.files.document()) {
-            self.zoom_to(element);
+        if let Some(found) = self.find.poll(self.files.document()) {
+            self.zoom_to(&found);
         }
         self.refresh_findings(ctx);
         self.update_tools();

@@ -40,7 +40,8 @@ impl App {
             Action::ShowGroup(request) => self.show_group(request),
             Action::SelectByQuery(mode) => self.select_by_query(mode),
             Action::Search => self.find.search(self.files.document(), repaint),
-            Action::ZoomTo(element) => self.zoom_to(element),
+            Action::ZoomTo(element) => self.zoom_to(&Elements::of(element)),
+            Action::ZoomToGroup(group) => self.zoom_to(&Elements::of_group(&group)),
             Action::FlyTo(file, element) => self.fly_to(file, element),
             Action::Check(options) => {
                 if let Some(layer) = self.files.active_mut() {
@@ -133,7 +134,6 @@ impl App {
             | Command::Redo
             | Command::SelectAll
             | Command::Deselect
-            | Command::Delete
             | Command::Duplicate
             | Command::RotateLeft
             | Command::FlipHorizontal
@@ -142,6 +142,7 @@ impl App {
             | Command::Hide
             | Command::Isolate
             | Command::ShowAll => self.edit_selection(command),
+            Command::Delete => self.delete_selection(),
             Command::Cut => self.copy_elements(true, ctx),
             Command::Copy => self.copy_elements(false, ctx),
             Command::Paste => self.paste_elements(),
@@ -306,14 +307,15 @@ impl App {
         }
     }
 
-    /// Zooms to an element and selects it.
-    pub(super) fn zoom_to(&mut self, element: Element) {
-        let bounds = self.files.document().and_then(|d| d.bounds_of(element));
+    /// Zooms to elements and selects them.
+    pub(super) fn zoom_to(&mut self, all: &Elements) {
+        let bounds = self.files.document().and_then(|d| d.bounds_of_all(all));
         if let Some(bounds) = bounds {
             self.canvas.camera.zoom_to(bounds);
         }
+        let all = all.clone();
         self.edit(EditTask::view_change(move |document| {
-            document.select_elements(&Elements::of(element), SelectMode::Replace);
+            document.select_elements(&all, SelectMode::Replace);
         }));
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use guideway_document::Document;
+use guideway_document::{Document, Group};
 
 use super::open_project::{OpenProject, ProjectReader};
 use crate::backdrop::{FloorPlanLayer, PlanEditor, SweptAreasLayer};
@@ -55,6 +55,8 @@ pub(crate) struct App {
     pub(crate) bottom: BottomPanel,
     /// The path under the pointer in another than the active file.
     pub(crate) other_hit: Option<OtherHit>,
+    /// The level or vehicle type under the pointer in a list, with the index of its file.
+    pub(super) hovered_group: Option<(usize, Group)>,
     pub(crate) dialogs: Dialogs,
     pub(crate) welcome: Welcome,
     pub(super) project: OpenProject,
@@ -114,6 +116,7 @@ impl App {
             bars: StillBars::default(),
             bottom: BottomPanel::default(),
             other_hit: None,
+            hovered_group: None,
             dialogs: Dialogs::default(),
             welcome: Welcome::default(),
             project: OpenProject::default(),

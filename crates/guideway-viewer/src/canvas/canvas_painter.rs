@@ -37,6 +37,8 @@ use crate::route::FoundRoute;
 use crate::tools::{Gesture, OtherHit, Tool, ToolContext, Tools};
 
 const MESSAGE_POINTS: f32 = 15.0;
+/// Opacity of the lines of what belongs to a selected level or vehicle type.
+const MEMBERS_OPACITY: f32 = 0.5;
 
 /// Everything that the canvas shows, read only.
 pub(crate) struct CanvasPainter<'a> {
@@ -173,8 +175,9 @@ impl CanvasPainter<'_> {
         }
     }
 
-    /// Paints the marks of the files that are not active, and the path under the pointer in one.
+    /// Paints the marks of the files that are not active, and what the pointer means in one.
     fn paint_others(&self, painter: &Painter, style: &DecorationStyle) {
+        let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
         let active = self.files.active().map(Layer::path);
         let others = self.files.visible().filter(|l| Some(l.path()) != active);
         for layer in others {
@@ -186,6 +189,11 @@ impl CanvasPainter<'_> {
                     marks.texts.clear();
                 }
                 paint_draw_list(painter, self.screen, &marks);
+                if let Some(members) = &overlay.highlighted {
+                    let to_screen = |pixel| self.screen.point(place(pixel));
+                    paint_glowing(painter, &members.paths, stroke, to_screen);
+                    paint_rings(painter, &members.symbols, HOVER_COLOR, to_screen);
+                }
             }
         }
         let hit = self.other_hit.and_then(|other| {
@@ -194,7 +202,6 @@ impl CanvasPainter<'_> {
         });
         if let Some((document, path)) = hit {
             let lines = outline(document, &PathSet::from_iter([path]), &self.view);
-            let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
             paint_glowing(painter, &lines, stroke, |pixel| self.screen.point(pixel));
         }
     }
@@ -241,7 +248,15 @@ impl CanvasPainter<'_> {
             let lines = outline(document, &PathSet::from_iter([hit.path]), view);
             paint_glowing(painter, &lines, hovered, |pixel| screen.point(pixel));
         }
-        paint_rings(painter, &overlay.symbols, to_screen);
+        paint_rings(painter, &overlay.symbols, SELECTION_COLOR, to_screen);
+        if let Some(members) = &overlay.of_selected {
+            let thin = stroke(SELECTION_COLOR.gamma_multiply(MEMBERS_OPACITY));
+            paint_outline(painter, &members.paths, thin, to_screen);
+        }
+        if let Some(members) = &overlay.highlighted {
+            paint_glowing(painter, &members.paths, hovered, to_screen);
+            paint_rings(painter, &members.symbols, HOVER_COLOR, to_screen);
+        }
         if let (Tool::Points, Some(document)) = (self.tools.tool(), document) {
             paint_handles(painter, screen, &handles(document, view));
         }

@@ -77,13 +77,14 @@ pub(super) fn paint_glowing(
     paint_outline(painter, outline, stroke, to_screen);
 }
 
-/// Paints rings around selected nodes and stations.
+/// Paints rings around nodes and stations.
 pub(super) fn paint_rings(
     painter: &Painter,
     at_px: &[Point<f64>],
+    color: Color32,
     to_screen: impl Fn(Point<f64>) -> Pos2,
 ) {
-    let stroke = Stroke::new(MIN_OUTLINE_WIDTH, SELECTION_COLOR);
+    let stroke = Stroke::new(MIN_OUTLINE_WIDTH, color);
     for &at_px in at_px {
         painter.circle_stroke(to_screen(at_px), RING_RADIUS, stroke);
     }

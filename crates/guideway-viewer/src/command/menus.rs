@@ -81,6 +81,8 @@ pub(crate) enum ContextPlace {
     Path,
     Node,
     Station,
+    /// A level or a vehicle type in a list.
+    Group,
     /// A path that is being drawn or measured.
     Draft,
     #[default]
@@ -101,6 +103,10 @@ impl ContextPlace {
             Self::Node | Self::Station => {
                 &[&[ZoomToSelection], &[Cut, Copy, Duplicate, Delete, Rename]]
             }
+            Self::Group => &[
+                &[ZoomToSelection],
+                &[Cut, Copy, Paste, Duplicate, Delete, Rename],
+            ],
             Self::Draft => &[&[FinishPath, Undo], &[Cancel]],
             Self::Empty => &[
                 &[ToolSelect, ToolPoints, ToolLine, ToolMeasure],

@@ -7,14 +7,14 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
-use guideway_document::Document;
 use guideway_document::decorations::MarkOptions;
+use guideway_document::{Document, Group};
 use guideway_scene::{LayoutCopy, View};
 
 use super::edit_task::EditTask;
 use super::journal::Journal;
 use super::notice::Notice;
-use super::overlay::Overlay;
+use super::overlay::{Overlay, OverlayInput};
 use crate::background::{BackgroundTask, RepaintHandle};
 use crate::language::t;
 
@@ -194,11 +194,18 @@ impl DocumentSlot {
         &mut self,
         view: &View,
         options: &MarkOptions,
+        highlighted: Option<&Group>,
         wait: Duration,
         repaint: &RepaintHandle,
     ) {
         if let Some(document) = &self.document {
-            self.overlay.request(document, view, options, wait, repaint);
+            let input = OverlayInput {
+                view: *view,
+                options: *options,
+                highlighted: highlighted.cloned(),
+                revision: document.revision(),
+            };
+            self.overlay.request(document, input, wait, repaint);
         }
     }
 

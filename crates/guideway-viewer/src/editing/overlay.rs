@@ -6,8 +6,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Mesh, Pos2};
-use guideway_document::Document;
 use guideway_document::decorations::{MAX_MARKED, MarkOptions, Marks, Outline, marks, outline};
+use guideway_document::{Document, Elements, Group};
 use guideway_scene::View;
 use guideway_spline::Point;
 
@@ -23,11 +23,21 @@ pub(crate) struct Overlay {
     requested: Option<OverlayInput>,
 }
 
+/// All that an overlay depends on.
 #[derive(Clone, PartialEq)]
-struct OverlayInput {
-    view: View,
-    options: MarkOptions,
-    revision: u64,
+pub(super) struct OverlayInput {
+    pub(super) view: View,
+    pub(super) options: MarkOptions,
+    /// The level or vehicle type whose members stand out.
+    pub(super) highlighted: Option<Group>,
+    pub(super) revision: u64,
+}
+
+/// The elements of levels or vehicle types.
+pub(crate) struct MembersOutline {
+    pub(crate) paths: Outline,
+    /// Places of nodes and stations, in pixels.
+    pub(crate) symbols: Vec<Point<f64>>,
 }
 
 /// Triangles of the outline of a selection that is being moved.
@@ -48,6 +58,9 @@ pub(crate) struct OverlayContent {
     pub(crate) moving: OnceLock<MovingOutline>,
     /// Places of selected nodes and stations, in pixels.
     pub(crate) symbols: Vec<Point<f64>>,
+    /// Elements of the selected levels and vehicle types, and of the one under the pointer.
+    pub(crate) of_selected: Option<MembersOutline>,
+    pub(crate) highlighted: Option<MembersOutline>,
     elapsed: Duration,
 }
 
@@ -57,16 +70,10 @@ impl Overlay {
     pub(super) fn request(
         &mut self,
         document: &Arc<Document>,
-        view: &View,
-        options: &MarkOptions,
+        input: OverlayInput,
         wait: Duration,
         repaint: &RepaintHandle,
     ) {
-        let input = OverlayInput {
-            view: *view,
-            options: *options,
-            revision: document.revision(),
-        };
         if self.task.is_some() || self.requested.as_ref() == Some(&input) {
             return;
         }
@@ -141,21 +148,37 @@ impl OverlayContent {
             marks: marks(document, &input.view, &input.options),
             selection: outline(document, document.selection(), &input.view),
             moving: OnceLock::new(),
-            symbols: selected_symbols(document, &input.view),
+            symbols: symbols(document, document.selected(), &input.view),
+            of_selected: members(document, document.selected().groups(), &input.view),
+            highlighted: members(document, input.highlighted.iter().cloned(), &input.view),
             elapsed: started.elapsed(),
         }
     }
 }
 
-/// Positions of the selected nodes and stations in a view, in pixels; the first ones, if there are
-/// too many to tell apart.
-fn selected_symbols(document: &Document, view: &View) -> Vec<Point<f64>> {
-    let selected = document.selected();
-    let nodes = selected
+/// The outline of what belongs to groups; `None` without any.
+fn members(
+    document: &Document,
+    groups: impl Iterator<Item = Group>,
+    view: &View,
+) -> Option<MembersOutline> {
+    let mut groups = groups.peekable();
+    groups.peek()?;
+    let all = document.members_of_all(groups);
+    Some(MembersOutline {
+        paths: outline(document, &all.paths, view),
+        symbols: symbols(document, &all, view),
+    })
+}
+
+/// Positions of nodes and stations in a view, in pixels; the first ones, if there are too many to
+/// tell apart.
+fn symbols(document: &Document, elements: &Elements, view: &View) -> Vec<Point<f64>> {
+    let nodes = elements
         .nodes
         .iter()
         .map(|node| document.node_position_m(node));
-    let stations = selected.stations.iter();
+    let stations = elements.stations.iter();
     let stations = stations.filter_map(|station| document.station_position_m(station));
     let bounds = view.world_bounds();
     let visible = nodes.chain(stations).filter(|at_m| bounds.contains(*at_m));

@@ -35,7 +35,7 @@ impl CommandState<'_> {
     }
 
     /// Returns `true` if a command has something to act on.
-    pub(super) fn is_possible(&self, command: Command) -> bool {
+    pub(crate) fn is_possible(&self, command: Command) -> bool {
         let Some(layer) = self.files.active() else {
             return !needs_file(command);
         };
@@ -50,7 +50,12 @@ impl CommandState<'_> {
             Command::ShowAll => document.scene().hidden_count() > 0,
             Command::NextFile => self.files.layers().len() > 1,
             Command::FinishPath => self.tool.curve().is_some(),
-            command if needs_selection(command) => !document.selected().is_empty(),
+            command if takes_groups(command) => !document.selected().is_empty(),
+            Command::Hide => {
+                let selected = document.selected();
+                selected.has_elements() || !selected.levels.is_empty()
+            }
+            command if needs_selection(command) => document.selected().has_elements(),
             _ => true,
         }
     }
@@ -83,6 +88,20 @@ impl CommandState<'_> {
             _ => false,
         }
     }
+}
+
+/// Returns `true` if a command acts on selected levels and vehicle types too.
+fn takes_groups(command: Command) -> bool {
+    matches!(
+        command,
+        Command::Deselect
+            | Command::Delete
+            | Command::Duplicate
+            | Command::ZoomToSelection
+            | Command::Cut
+            | Command::Copy
+            | Command::Rename
+    )
 }
 
 fn needs_selection(command: Command) -> bool {

@@ -11,7 +11,8 @@ use crate::selection::Find;
 /// Shows the section.
 pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mut Vec<Action>) {
     let label = ui.label(t("Name"));
-    let field = TextEdit::singleline(&mut find.name).hint_text(t("path, node or station"));
+    let field = TextEdit::singleline(&mut find.name)
+        .hint_text(t("path, node, station, level or vehicle type"));
     let field = ui.add(field).labelled_by(label.id);
     if std::mem::take(&mut find.wants_focus) {
         field.request_focus();
@@ -29,6 +30,12 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
             let kind = t(element.table_row().0.element());
             if ui.link(format!("{kind} {}", element.id(layout))).clicked() {
                 actions.push(Action::ZoomTo(element));
+            }
+        }
+        for group in find.groups(document) {
+            let (kind, id) = (t(group.kind()), group.id(layout).unwrap_or_default());
+            if ui.link(format!("{kind} {id}")).clicked() {
+                actions.push(Action::ZoomToGroup(group.clone()));
             }
         }
         for more in find.more() {

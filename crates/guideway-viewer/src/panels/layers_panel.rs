@@ -4,7 +4,7 @@ use std::path::Path;
 
 use eframe::egui::collapsing_header::CollapsingState;
 use eframe::egui::{Align, Button, Color32, Id, Label, Layout, RichText, Ui};
-use guideway_document::Document;
+use guideway_document::{Document, Group};
 use guideway_layout::shown_path;
 use guideway_scene::{Rgba, Table};
 
@@ -16,14 +16,15 @@ use crate::display_settings::DisplaySettings;
 use crate::files::{Layer, LayerLook, OpenFiles};
 use crate::language::{counted, t, translated};
 
-/// Shows the tab.
+/// Shows the tab. Returns the level or vehicle type under the pointer, with the index of its file.
 pub(super) fn show(
     ui: &mut Ui,
     files: &mut OpenFiles,
     floor_plan: &mut FloorPlanLayer,
     settings: &DisplaySettings,
     actions: &mut Vec<Action>,
-) {
+) -> Option<(usize, Group)> {
+    let mut hovered = None;
     let (active, count) = (files.active_index(), files.layers().len());
     if count == 0 {
         ui.label(t("No file is open"));
@@ -38,12 +39,16 @@ pub(super) fn show(
         let look = layer.look.clone();
         CollapsingState::load_with_default_open(ui.ctx(), id, true)
             .show_header(ui, |ui| row.show(ui, layer, actions))
-            .body(|ui| row.show_details(ui, layer, settings, actions));
+            .body(|ui| {
+                let group = row.show_details(ui, layer, settings, actions);
+                hovered = group.map(|group| (index, group)).or(hovered.take());
+            });
         if layer.look.color != look.color {
             actions.push(Action::Recolor);
         }
     }
     show_floor_plan(ui, floor_plan);
+    hovered
 }
 
 /// The place of a file in the list.
@@ -110,7 +115,7 @@ impl LayerRow {
         layer: &mut Layer,
         settings: &DisplaySettings,
         actions: &mut Vec<Action>,
-    ) {
+    ) -> Option<Group> {
         if let Some(document) = layer.document() {
             ui.add(Label::new(RichText::new(contents(document)).small()).truncate());
         }
@@ -124,9 +129,8 @@ impl LayerRow {
             slider(ui, &mut look.opacity).on_hover_text(t("Opacity of the paths"));
             show_color(ui, look, settings);
         });
-        if let Some(document) = layer.document() {
-            group_list::show(ui, self.index, document, actions);
-        }
+        let document = layer.document()?;
+        group_list::show(ui, (self.index, self.is_active), document, actions)
     }
 }
 

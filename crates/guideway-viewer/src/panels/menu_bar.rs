@@ -81,17 +81,30 @@ pub(crate) fn command_list(
     groups: &[&[Command]],
     state: &CommandState<'_>,
 ) -> Option<Action> {
+    command_entries(ui, groups, |command| {
+        let (is_on, is_possible) = (state.is_on(command), state.is_possible(command));
+        (state.label(command), is_on, is_possible)
+    })
+}
+
+/// As [`command_list`]; `state` has the text of a command, its tick, and whether it can run.
+pub(super) fn command_entries(
+    ui: &mut Ui,
+    groups: &[&[Command]],
+    state: impl Fn(Command) -> (String, bool, bool),
+) -> Option<Action> {
     let mut chosen = None;
     for (number, group) in groups.iter().enumerate() {
         if number > 0 {
             ui.separator();
         }
         for &command in *group {
-            let mut button = Button::new(state.label(command)).selected(state.is_on(command));
+            let (label, is_on, is_possible) = state(command);
+            let mut button = Button::new(label).selected(is_on);
             if let Some(shortcut) = shortcuts_of(command).next() {
                 button = button.shortcut_text(shortcut_text(ui.ctx(), shortcut));
             }
-            if ui.add_enabled(state.is_possible(command), button).clicked() {
+            if ui.add_enabled(is_possible, button).clicked() {
                 chosen = Some(Action::Command(command));
                 ui.close();
             }

@@ -25,7 +25,7 @@ pub(super) fn show(
     ui.add(Label::new(text).truncate());
     // While an edit has the document, the fields stay: further edits wait for it.
     exact.is_shown = match files.document() {
-        Some(document) => !document.selected().is_empty(),
+        Some(document) => document.selected().has_elements(),
         None => exact.is_shown && files.active().is_some(),
     };
     if exact.is_shown {
@@ -62,12 +62,16 @@ fn show_exact_edits(ui: &mut Ui, exact: &mut ExactEdit, actions: &mut Vec<Action
     });
 }
 
-/// `2 paths and 1 station selected`.
+/// `3 paths, 2 nodes and 1 station selected`.
 pub(super) fn summary(selected: &Elements) -> String {
     let counts = counts(selected);
-    match counts.is_empty() {
-        true => t("Nothing is selected").to_owned(),
-        false => say!("{counts} selected", counts = counts.join(t(" and "))),
+    match counts.split_last() {
+        None => t("Nothing is selected").to_owned(),
+        Some((last, [])) => say!("{counts} selected", counts = last),
+        Some((last, others)) => {
+            let counts = others.join(", ") + t(" and ") + last;
+            say!("{counts} selected", counts)
+        }
     }
 }
 
@@ -81,6 +85,9 @@ mod tests {
         assert_eq!(summary(&selected), "2 paths selected");
         selected.stations.insert(7);
         assert_eq!(summary(&selected), "2 paths and 1 station selected");
+        selected.vehicle_types.insert("tug".into());
+        let text = "2 paths, 1 station and 1 vehicle type selected";
+        assert_eq!(summary(&selected), text);
         assert_eq!(summary(&Elements::default()), "Nothing is selected");
     }
 }

@@ -1,7 +1,7 @@
 //! The side panel: tabs with fixed places, one per part of the window.
 
 use eframe::egui::{CollapsingHeader, Rect, RichText, ScrollArea, TextWrapMode, Ui, UiBuilder};
-use guideway_document::Document;
+use guideway_document::{Document, Group};
 
 use super::findings_panel::FindingsPanel;
 use super::properties::PropertiesPanel;
@@ -108,6 +108,8 @@ pub(crate) struct SidePanel<'a> {
     pub(crate) settings: &'a mut DisplaySettings,
     pub(crate) swept_areas: &'a mut SweptAreasLayer,
     pub(crate) findings: &'a mut FindingsPanel,
+    /// The level or vehicle type under the pointer, with the index of its file.
+    pub(crate) hovered_group: &'a mut Option<(usize, Group)>,
     pub(crate) properties: &'a mut PropertiesPanel,
     pub(crate) methods: &'a MethodSelection,
 }
@@ -157,7 +159,8 @@ impl SidePanel<'_> {
         match tab {
             SideTab::Layers => {
                 let (files, plan) = (&mut *self.files, &mut *self.floor_plan);
-                layers_panel::show(ui, files, plan, self.settings, actions);
+                let hovered = layers_panel::show(ui, files, plan, self.settings, actions);
+                *self.hovered_group = hovered;
             }
             SideTab::Properties => {
                 let key = PropertiesKey {

@@ -1,4 +1,4 @@
-//! Commands that edit, select or hide the selected paths.
+//! Commands that edit, select or hide what is selected.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,6 +6,7 @@ use guideway_document::{Document, Elements, PathSet, SelectMode};
 use guideway_scene::{Table, View};
 use guideway_spline::{Affine, Point};
 
+use super::copied::paste;
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::language::counted;
@@ -23,12 +24,11 @@ pub(crate) fn selection_command(command: Command, view: Option<&View>) -> Option
         Command::Hide => EditTask::view_change(Document::hide_selection),
         Command::Isolate => EditTask::view_change(Document::isolate_selection),
         Command::ShowAll => EditTask::view_change(Document::show_all),
-        Command::Delete => EditTask::edit(Document::delete_selection),
         Command::Refine => EditTask::edit(Document::refine_selection),
         Command::Duplicate => {
             let offset_m = view.map_or(1.0, |view| DUPLICATE_OFFSET_PX / view.px_per_m());
             let step_m = Point::new(offset_m, -offset_m);
-            EditTask::edit(move |document: &mut Document| document.copy_selection(1, step_m))
+            EditTask::edit(move |document: &mut Document| duplicate(document, step_m))
         }
         Command::RotateLeft => transform("rotate", |center| Affine::rotation(FRAC_PI_2, center)),
         Command::FlipHorizontal => transform("flip", |center| {
@@ -42,6 +42,18 @@ pub(crate) fn selection_command(command: Command, view: Option<&View>) -> Option
         _ => return None,
     };
     Some(edit)
+}
+
+/// Copies the selection: elements a step beside their originals, levels with what is on them at
+/// the same place.
+fn duplicate(document: &mut Document, step_m: Point<f64>) -> Result<(), String> {
+    if !document.selected().has_groups() {
+        let copied = document.copy_selection(1, step_m);
+        return copied.map_err(|error| error.to_string());
+    }
+    let clip = document.clip(document.selected());
+    let clip = clip.map_err(|error| error.to_string())?;
+    paste(document, &clip, Affine::IDENTITY).map_err(|error| error.to_string())
 }
 
 /// Transforms the selection about the center of its bounding box.
@@ -64,7 +76,14 @@ pub(crate) fn counts(elements: &Elements) -> Vec<String> {
         let count = elements.rows(of).len();
         (count > 0).then(|| counted(count, of.element()))
     });
-    counts.collect()
+    let groups = [
+        (elements.levels.len(), "level"),
+        (elements.vehicle_types.len() as u64, "vehicle type"),
+    ];
+    let groups = groups.into_iter().filter(|(count, _)| *count > 0);
+    counts
+        .chain(groups.map(|(count, what)| counted(count, what)))
+        .collect()
 }
 
 #[cfg(test)]

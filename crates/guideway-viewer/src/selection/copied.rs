@@ -24,21 +24,37 @@ impl CopiedElements {
         }
     }
 
-    /// Pastes the elements into a file: one more step beside the originals if it has them, else at
-    /// the same place.
+    /// Pastes the elements into a file: one more step beside the originals if it has them; else at
+    /// the same place, as levels always.
     pub(crate) fn paste_into(&mut self, file: &Path, step_m: Point<f64>) -> EditTask {
         self.pasted += u32::from(self.from.as_deref() == Some(file));
-        let by = Affine::translation(step_m * f64::from(self.pasted));
+        // Levels lie over each other.
+        let steps = if self.clip.has_groups() {
+            0
+        } else {
+            self.pasted
+        };
+        let by = Affine::translation(step_m * f64::from(steps));
         let clip = self.clip.clone();
-        EditTask::edit(move |document: &mut Document| {
-            let pasted = match document.paste(&clip, by, document.level()) {
-                // The other file has other levels.
-                Err(OperationError::UnknownLevel { .. }) => {
-                    document.paste(&clip, by, document.drawing_level(None))
-                }
-                pasted => pasted,
-            };
-            pasted.map(drop)
-        })
+        EditTask::edit(move |document: &mut Document| paste(document, &clip, by))
     }
+}
+
+/// Pastes a clip, and shows the first pasted level alone.
+pub(super) fn paste(
+    document: &mut Document,
+    clip: &Clip,
+    by: Affine,
+) -> Result<(), OperationError> {
+    let pasted = match document.paste(clip, by, document.level()) {
+        // The other file has other levels.
+        Err(OperationError::UnknownLevel { .. }) => {
+            document.paste(clip, by, document.drawing_level(None))
+        }
+        pasted => pasted,
+    };
+    if let Some(level) = pasted?.levels.min() {
+        document.show_level(Some(level));
+    }
+    Ok(())
 }

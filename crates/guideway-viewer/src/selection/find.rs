@@ -1,6 +1,6 @@
 //! Search by name, and the query that selects paths.
 
-use guideway_document::{Document, Element, search};
+use guideway_document::{Document, Element, Elements, Group, search, search_groups};
 use guideway_scene::Table;
 
 use crate::background::{BackgroundTask, RepaintHandle};
@@ -8,6 +8,9 @@ use crate::language::{counted, say};
 
 /// Longest list of results of one kind of element.
 const MAX_RESULTS: u64 = 30;
+
+/// Elements, and levels and vehicle types.
+type Found = (Vec<Element>, Vec<Group>);
 
 /// The search fields and their results.
 #[derive(Default)]
@@ -21,9 +24,10 @@ pub(crate) struct Find {
     /// True if to zoom to the first result.
     pub(crate) zooms_to_first: bool,
     results: Vec<Element>,
+    groups: Vec<Group>,
     /// Nodes, stations and paths beyond the list.
     more: [u64; 3],
-    search: Option<BackgroundTask<Vec<Element>>>,
+    search: Option<BackgroundTask<Found>>,
 }
 
 impl Find {
@@ -32,7 +36,10 @@ impl Find {
         let layout = document.map(|document| document.scene().shared_layout());
         self.search = layout.map(|layout| {
             let name = self.name.clone();
-            BackgroundTask::start(repaint, move || search(&layout, &name, usize::MAX))
+            BackgroundTask::start(repaint, move || {
+                let elements = search(&layout, &name, usize::MAX);
+                (elements, search_groups(&layout, &name))
+            })
         });
     }
 
@@ -54,17 +61,26 @@ impl Find {
         results.filter(|element| of.contains(*element))
     }
 
-    /// Takes a finished search. Returns the element to zoom to.
-    pub(crate) fn poll(&mut self, document: Option<&Document>) -> Option<Element> {
+    /// The levels and vehicle types among the results that exist in the document.
+    pub(crate) fn groups<'a>(&'a self, of: &'a Document) -> impl Iterator<Item = &'a Group> {
+        let listed = self.groups.iter().take(MAX_RESULTS as usize);
+        listed.filter(|group| of.contains_group(group))
+    }
+
+    /// Takes a finished search. Returns what to zoom to.
+    pub(crate) fn poll(&mut self, document: Option<&Document>) -> Option<Elements> {
         if let Some(results) = self.search.as_ref().and_then(BackgroundTask::result) {
             self.search = None;
-            self.take(results.unwrap_or_default(), document);
+            let (elements, groups) = results.unwrap_or_default();
+            self.take(elements, document);
+            self.groups = groups;
         }
         if self.search.is_some() || !std::mem::take(&mut self.zooms_to_first) {
             return None;
         }
-        let first = self.results.first().copied()?;
-        document.and_then(|d| d.contains(first).then_some(first))
+        let document = document?;
+        let element = self.results(document).next().map(Elements::of);
+        element.or_else(|| self.groups(document).next().map(Elements::of_group))
     }
 }
 
@@ -112,7 +128,7 @@ mod tests {
             thread::sleep(Duration::from_millis(1));
             find.poll(Some(&document))
         });
-        assert_eq!(found, Some(Element::Path(37)));
+        assert_eq!(found, Some(Elements::of(Element::Path(37))));
         assert_eq!(find.results(&document).next(), Some(Element::Path(37)));
         assert!(find.more().is_empty());
         let all = search(document.layout(), "lane", usize::MAX);

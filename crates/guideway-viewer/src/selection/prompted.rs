@@ -1,6 +1,6 @@
 //! Commands that need a number or a name: fillet, weld, distribute, array, level, rename.
 
-use guideway_document::{Document, Element, Elements, ShapeError};
+use guideway_document::{Document, Element, Elements, Group, LevelFact, PathSet, ShapeError};
 use guideway_layout::{Layout, Level, UserError};
 use guideway_spline::Point;
 
@@ -16,6 +16,8 @@ pub(crate) struct TextQuestion {
     pub(crate) label: String,
     /// The suggested text.
     pub(crate) text: String,
+    /// The vehicle type that the answer renames.
+    pub(crate) renamed_type: Option<String>,
 }
 
 /// The question of a command; `None` for commands that need nothing typed.
@@ -31,6 +33,7 @@ pub(crate) fn question(
             command,
             label: label.to_owned(),
             text: text.to_owned(),
+            renamed_type: None,
         })
     };
     Some(match command {
@@ -51,8 +54,25 @@ pub(crate) fn question(
             ask(&say!("Level, one of: {names}", names), "")
         }),
         Command::Rename => {
-            let element = only_element(document.selected());
-            element.and_then(|element| ask(t("New name"), element.id(document.layout())))
+            let layout = document.layout();
+            match only_named(document.selected()) {
+                Ok(Named::Element(element)) => ask(t("New name"), element.id(layout)),
+                Ok(Named::Group(group)) => {
+                    let label = match group {
+                        Group::Level(_) => t("New identifier of the level"),
+                        Group::VehicleType(_) => t("New name of the vehicle type"),
+                    };
+                    let question = ask(label, group.id(layout).unwrap_or_default());
+                    question.map(|question| TextQuestion {
+                        renamed_type: match group {
+                            Group::Level(_) => None,
+                            Group::VehicleType(name) => Some(name),
+                        },
+                        ..question
+                    })
+                }
+                Err(error) => Err(error),
+            }
         }
         _ => return None,
     })
@@ -113,8 +133,18 @@ pub(crate) fn prompted_edit(command: Command, text: &str) -> Result<EditTask, St
             Ok::<(), String>(())
         }),
         Command::Rename => EditTask::edit(move |document: &mut Document| {
-            let (of, row) = only_element(document.selected())?.table_row();
-            let renamed = document.rename(of, row, &text);
+            let renamed = match only_named(document.selected())? {
+                Named::Element(element) => {
+                    let (of, row) = element.table_row();
+                    document.rename(of, row, &text)
+                }
+                Named::Group(Group::Level(row)) => {
+                    document.set_level_fact(&PathSet::from_iter([row]), LevelFact::Id(&text))
+                }
+                Named::Group(Group::VehicleType(name)) => {
+                    document.change_vehicle_type(&name, &text, &[])
+                }
+            };
             renamed.map_err(|error| UserError::from(ShapeError::from(error)))
         }),
         _ => return Err(t("this command needs no text").to_owned()),
@@ -157,9 +187,9 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
 }
 
 fn something(document: &Document) -> Result<(), UserError> {
-    match document.selected().is_empty() {
-        true => Err(nothing_selected()),
-        false => Ok(()),
+    match document.selected().has_elements() {
+        true => Ok(()),
+        false => Err(nothing_selected()),
     }
 }
 
@@ -168,13 +198,18 @@ fn nothing_selected() -> UserError {
     UserError::new("selection", t("nothing is selected"), remedy)
 }
 
-/// The selected element, if it is the only one.
-fn only_element(selected: &Elements) -> Result<Element, UserError> {
-    let mut all = (selected.paths.iter().map(Element::Path))
-        .chain(selected.nodes.iter().map(Element::Node))
-        .chain(selected.stations.iter().map(Element::Station));
+/// An object that has a name.
+enum Named {
+    Element(Element),
+    Group(Group),
+}
+
+/// The selected element, level or vehicle type, if it is the only one.
+fn only_named(selected: &Elements) -> Result<Named, UserError> {
+    let elements = selected.iter().map(Named::Element);
+    let mut all = elements.chain(selected.groups().map(Named::Group));
     match (all.next(), all.next()) {
-        (Some(element), None) => Ok(element),
+        (Some(named), None) => Ok(named),
         (None, _) => Err(nothing_selected()),
         _ => Err(UserError::new(
             "selection",

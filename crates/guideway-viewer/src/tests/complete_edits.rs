@@ -4,7 +4,7 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, Vec2};
 use egui_kittest::kittest::{By, Queryable};
-use guideway_document::{Element, Elements, SelectMode};
+use guideway_document::{Element, Elements, Group, SelectMode};
 use guideway_scene::Table;
 use guideway_spline::Point;
 
@@ -25,12 +25,15 @@ pub(super) fn complete(window: &mut TestWindow, random: &mut RandomSource) -> &'
     for key in [Key::V, Key::U, Key::F] {
         window.key(NONE, key);
     }
-    let (name, edit): (&str, Edit) = match random.below(6) {
+    let (name, edit): (&str, Edit) = match random.below(9) {
         0 => ("complete join", join),
         1 => ("complete weld", weld),
         2 => ("complete property", set_property),
         3 => ("complete node move", move_node),
         4 => ("complete rename", rename),
+        5 => ("complete copy of a group", copy_group),
+        6 => ("complete rename of a group", rename_group),
+        7 => ("complete deletion of a group", delete_group),
         _ => ("complete fillet", fillet),
     };
     let _ = edit(window, random);
@@ -130,6 +133,54 @@ fn rename(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
     Some(())
 }
 
+/// Selects a random level or vehicle type.
+fn select_group(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    let layout = window.document().layout();
+    let levels = (0..layout.levels.len() as u32).map(Group::Level);
+    let types = layout.vehicle_type_names().into_iter();
+    let types = types.map(|name| Group::VehicleType(name.to_owned()));
+    let all: Vec<Group> = levels.chain(types).collect();
+    let group = all.get(random.below(all.len().max(1)))?.clone();
+    window.change(move |document| {
+        document.select_elements(&Elements::of_group(&group), SelectMode::Replace);
+    });
+    window.harness.run_steps(2);
+    Some(())
+}
+
+fn copy_group(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    if window.document().layout().paths.geometry().point_count() > MAX_POINTS {
+        return None;
+    }
+    select_group(window, random)?;
+    window.key(CTRL, Key::D);
+    Some(())
+}
+
+/// Gives a name that no level and no vehicle type has.
+fn rename_group(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    select_group(window, random)?;
+    window.key(NONE, Key::F2);
+    window.answer(&format!("g{}", random.below(1 << 40)));
+    Some(())
+}
+
+/// Deletes a level or a vehicle type, with a random fate of what belongs to it.
+fn delete_group(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
+    select_group(window, random)?;
+    window.key(NONE, Key::Delete);
+    window.harness.run_steps(3);
+    let choices = By::new().role(Role::RadioButton);
+    let choices: Vec<_> = window.harness.query_all(choices).collect();
+    choices.get(random.below(choices.len().max(1)))?.click();
+    drop(choices);
+    window.harness.run_steps(2);
+    let delete = By::new().role(Role::Button).label("Delete");
+    window.harness.query(delete)?.click();
+    window.harness.run_steps(3);
+    Some(())
+}
+
 /// Draws a corner of two paths, and rounds it.
 fn fillet(window: &mut TestWindow, random: &mut RandomSource) -> Option<()> {
     if window.document().layout().paths.geometry().point_count() > MAX_POINTS {
@@ -158,25 +209,29 @@ fn perform(window: &mut TestWindow, command: Command) {
 
 #[test]
 fn each_edit_is_completed() {
-    let edits: [(Edit, &str); 6] = [
-        (join, "join"),
-        (weld, "weld"),
-        (set_property, "set property"),
-        (move_node, "move node"),
-        (rename, "rename"),
-        (fillet, "fillet"),
+    let edits: [(Edit, &[&str]); 9] = [
+        (join, &["join"]),
+        (weld, &["weld"]),
+        (set_property, &["set property"]),
+        (move_node, &["move node"]),
+        (rename, &["rename"]),
+        (fillet, &["fillet"]),
+        (copy_group, &["paste"]),
+        (rename_group, &["change level", "change vehicle type"]),
+        (delete_group, &["delete"]),
     ];
     let mut window = TestWindow::showing(super::lane_network::network(6));
     let mut random = RandomSource(5);
-    for (edit, name) in edits {
+    for (edit, names) in edits {
         let completed = (0..8).filter(|_| {
             close_dialogs(&mut window);
             window.key(NONE, Key::F);
             let before = window.document().state();
             edit(&mut window, &mut random);
             let document = window.document();
-            document.state() != before && document.undo_redo_names().0 == Some(name)
+            let name = document.undo_redo_names().0;
+            document.state() != before && name.is_some_and(|name| names.contains(&name))
         });
-        assert!(completed.count() > 3, "{name}");
+        assert!(completed.count() > 3, "{names:?}");
     }
 }

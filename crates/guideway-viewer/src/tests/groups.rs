@@ -1,9 +1,10 @@
-//! Levels and vehicle types are created, renamed and deleted, by mouse and keys.
+//! Levels and vehicle types are created, selected, renamed, changed, copied and deleted, by mouse
+//! and keys.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::{By, Queryable};
-use guideway_document::PropertyRef;
+use guideway_document::{Group, PropertyRef};
 use guideway_layout::Value;
 use guideway_scene::Table;
 
@@ -37,6 +38,18 @@ fn fill(window: &mut TestWindow, label: &str, text: &str) {
     window.harness.run_steps(2);
 }
 
+/// Runs a command of the menu behind the name of a level or vehicle type.
+fn choose(window: &mut TestWindow, name: &str, command: &str) {
+    click(window, &format!("Commands for {name}"));
+    let entries = window.harness.query_all_by_label_contains(command);
+    entries.last().expect("the menu is open").click();
+    window.harness.run_steps(3);
+}
+
+fn selected(window: &mut TestWindow) -> Vec<Group> {
+    window.document().selected().groups().collect()
+}
+
 fn levels(window: &mut TestWindow) -> Vec<String> {
     let layout = window.document().layout();
     layout.levels.iter().map(|level| level.id.clone()).collect()
@@ -62,36 +75,40 @@ fn a_level_is_added_renamed_and_drawn_on() {
     assert_eq!(document.layout().levels[2].elevation_m, Some(9.5));
     assert_eq!(document.level(), Some(2), "what is drawn goes there");
     window.harness.run_steps(3);
-    click(&mut window, "Change or delete the level hall");
+    click(&mut window, "Add level");
     fill(&mut window, "identifier", "upper");
     click(&mut window, "OK");
     let taken = window
         .harness
         .query_by_label("upper is taken; choose another name");
     assert!(taken.is_some(), "the dialog stays with its error");
-    fill(&mut window, "identifier", "ground");
-    fill(&mut window, "name for people", "Ground floor");
-    window.key(NONE, Key::Enter);
+    window.key(NONE, Key::Escape);
+    click(&mut window, "hall");
+    window.key(NONE, Key::F2);
+    window.answer("ground");
     assert_eq!(levels(&mut window), ["ground", "upper", "roof"]);
     assert_eq!(window.document().layout().paths.get(0).level(), Some(0));
     for _ in 0..2 {
         window.key(Modifiers::COMMAND, Key::Z);
     }
     assert_eq!(levels(&mut window), ["hall", "upper"]);
+    let shown = window.document().scene().draw_order().len();
+    assert_eq!(shown, 2, "the level that was shown alone is gone");
     assert!(!window.document().is_changed());
 }
 
 #[test]
 fn a_level_with_elements_asks_what_becomes_of_them() {
     let mut window = layers(TestWindow::showing(two_levels()));
-    click(&mut window, "Change or delete the level upper");
-    click(&mut window, "Delete…");
+    click(&mut window, "upper");
+    window.key(NONE, Key::Delete);
+    window.harness.run_steps(3);
     let text = "On the level upper are 1 path, 2 nodes. What becomes of them?";
     assert!(window.harness.query_by_label(text).is_some());
     window.key(NONE, Key::Escape);
     assert_eq!(levels(&mut window).len(), 2, "Escape deletes nothing");
-    click(&mut window, "Change or delete the level upper");
-    click(&mut window, "Delete…");
+    window.key(NONE, Key::Delete);
+    window.harness.run_steps(3);
     click(&mut window, "Move to hall");
     click(&mut window, "Delete");
     assert_eq!(levels(&mut window), ["hall"]);
@@ -99,8 +116,9 @@ fn a_level_with_elements_asks_what_becomes_of_them() {
     assert_eq!(document.layout().paths.get(1).level(), Some(0));
     assert_eq!(document.scene().draw_order().len(), 2);
     window.key(Modifiers::COMMAND, Key::Z);
-    click(&mut window, "Change or delete the level upper");
-    click(&mut window, "Delete…");
+    window.harness.run_steps(3);
+    assert_eq!(selected(&mut window), [Group::Level(1)]);
+    choose(&mut window, "upper", "Delete");
     click(&mut window, "Delete with the level");
     click(&mut window, "Delete");
     assert_eq!(levels(&mut window), ["hall"]);
@@ -117,8 +135,7 @@ fn the_first_level_is_added_to_a_layout_without_levels() {
     assert_eq!(levels(&mut window), ["level"]);
     let shown = window.document().scene().draw_order().len();
     assert_eq!(shown, 2, "paths without a level are on all");
-    let hint = "Change or delete the level level";
-    assert!(window.harness.query_by_label(hint).is_some());
+    assert!(window.harness.query_by_label("level").is_some());
 }
 
 #[test]
@@ -136,22 +153,20 @@ fn vehicle_types_are_added_changed_and_replaced() {
     let crane = &window.document().layout().vehicle_types[0];
     let speed = crane.attributes.value(0, "maxSpeed");
     assert_eq!(speed.and_then(|speed| speed.number()), Some(0.5));
-    click(&mut window, "Change or delete the vehicle type tug");
-    fill(&mut window, "identifier", "tugger");
-    window.key(NONE, Key::Enter);
+    click(&mut window, "tug");
+    window.key(NONE, Key::F2);
+    window.answer("tugger");
     let paths = |window: &mut TestWindow| {
         let entries = window.document().layout().paths.vehicle_types();
         entries.of(0).map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(paths(&mut window), ["tugger"]);
     // Without its only type the path would be open to all.
-    click(&mut window, "Change or delete the vehicle type tugger");
-    click(&mut window, "Delete…");
+    choose(&mut window, "tugger", "Delete");
     click(&mut window, "Take it off them");
     click(&mut window, "Delete");
     assert!(has_notice(window.app(), "would be open to all types"));
-    click(&mut window, "Change or delete the vehicle type tugger");
-    click(&mut window, "Delete…");
+    choose(&mut window, "tugger", "Delete");
     click(&mut window, "Replace by crane");
     click(&mut window, "Delete");
     assert_eq!(
@@ -177,9 +192,9 @@ fn a_renamed_vehicle_type_is_renamed_wherever_it_is_named() {
     window.app().tools.template.vehicle_types = vec![("tug".into(), Some(2.0))];
     click(&mut window, "Vehicle types");
     window.harness.run_steps(20);
-    click(&mut window, "Change or delete the vehicle type tug");
-    fill(&mut window, "identifier", "tugger");
-    window.key(NONE, Key::Enter);
+    click(&mut window, "tug");
+    window.key(NONE, Key::F2);
+    window.answer("tugger");
     assert_eq!(types(&mut window), ["fork", "tugger"]);
     let speed = |window: &mut TestWindow, name: &str| {
         let entries = window.document().layout().paths.vehicle_types();

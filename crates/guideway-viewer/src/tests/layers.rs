@@ -122,7 +122,8 @@ fn level_is_marked_and_shown_alone() {
     let mut window = TestWindow::showing(with_levels());
     window.app().side.open(SideTab::Layers);
     window.harness.run_steps(3);
-    window.harness.get_by_label("Mezzanine").click();
+    let mezzanine = "Shows Mezzanine alone, and draws on it";
+    window.harness.get_by_label(mezzanine).click();
     window.harness.run_steps(3);
     assert_eq!(window.document().level(), Some(1));
     assert_eq!(window.document().scene().hidden_count(), 2);
@@ -130,7 +131,7 @@ fn level_is_marked_and_shown_alone() {
         let label = window.harness.get_by_label(name);
         label.accesskit_node().toggled() == Some(Toggled::True)
     };
-    assert!(is_marked(&window, "Mezzanine") && !is_marked(&window, "All levels"));
+    assert!(is_marked(&window, mezzanine) && !is_marked(&window, "All levels"));
     window.harness.get_by_label("All levels").click();
     window.harness.run_steps(3);
     assert_eq!(window.document().scene().hidden_count(), 0);

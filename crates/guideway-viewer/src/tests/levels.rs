@@ -167,7 +167,8 @@ fn several_levels_are_shown_beside_each_other() {
     window.harness.run_steps(3);
     assert_eq!(shown(&mut window).len(), 2);
     assert_eq!(window.document().level(), Some(1), "paths go there still");
-    window.harness.get_by_label("hall").click();
+    let choice = "Shows hall alone, and draws on it";
+    window.harness.get_by_label(choice).click();
     window.harness.run_steps(3);
     assert_eq!(shown(&mut window), [0]);
     window.harness.get_by_label("All levels").click();

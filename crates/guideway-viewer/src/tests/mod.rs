@@ -15,6 +15,7 @@ mod floor_plans;
 #[cfg(target_os = "linux")]
 mod full_disk;
 mod german;
+mod group_selection;
 mod groups;
 mod lane_network;
 mod layers;

@@ -37,6 +37,7 @@ impl Members<'_> {
             paths: self.rows("paths", Table::Paths, document)?,
             nodes: self.rows("nodes", Table::Nodes, document)?,
             stations: self.rows("stations", Table::Stations, document)?,
+            ..Elements::default()
         })
     }
 

@@ -23,6 +23,7 @@ use eframe::egui::{Context, Rect};
 pub(crate) use about_dialog::AboutDialog;
 pub(crate) use confirm_dialog::{ConfirmDialog, Question, Risk};
 pub(crate) use file_picker::FilePicker;
+pub(crate) use group_deletion::GroupDeletion;
 pub(crate) use group_dialog::GroupDialog;
 pub(crate) use leave_dialog::LeaveDialog;
 pub(crate) use loss_dialog::LossDialog;
@@ -44,6 +45,7 @@ pub(crate) struct Dialogs {
     pub(crate) losses: LossDialog,
     pub(crate) text: TextDialog,
     pub(crate) group: GroupDialog,
+    pub(crate) deletion: GroupDeletion,
     pub(crate) recent: RecentDialog,
     pub(crate) leave: LeaveDialog,
     pub(crate) confirm: ConfirmDialog,
@@ -66,6 +68,7 @@ impl Dialogs {
             || self.losses.is_open()
             || self.text.is_open()
             || self.group.is_open()
+            || self.deletion.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -76,6 +79,7 @@ impl Dialogs {
         self.losses.close();
         self.text.close();
         self.group.close();
+        self.deletion.close();
         self.recent.close();
         self.leave.close();
         self.confirm.close();
@@ -92,6 +96,7 @@ impl Dialogs {
             || self.losses.is_open()
             || self.text.is_open()
             || self.group.is_open()
+            || self.deletion.is_open()
             || self.recent.is_open()
             || self.leave.is_open()
             || self.confirm.is_open()
@@ -114,6 +119,7 @@ impl Dialogs {
         actions.extend(self.losses.show(ctx));
         actions.extend(self.text.show(ctx));
         actions.extend(self.group.show(ctx));
+        actions.extend(self.deletion.show(ctx));
         actions.extend(self.recent.show(ctx));
         actions.extend(self.leave.show(ctx, files));
         actions.extend(self.confirm.show(ctx));

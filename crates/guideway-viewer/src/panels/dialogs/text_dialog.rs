@@ -68,8 +68,17 @@ impl TextDialog {
         }
         match prompted_edit(open.question.command, &open.question.text) {
             Ok(edit) => {
-                self.open = None;
-                Some(Action::Edit(edit))
+                let TextQuestion {
+                    text, renamed_type, ..
+                } = self.open.take()?.question;
+                Some(match renamed_type {
+                    Some(old) => Action::RenameVehicleType {
+                        edit,
+                        old,
+                        new: text.trim().to_owned(),
+                    },
+                    None => Action::Edit(edit),
+                })
             }
             Err(error) => {
                 (open.error, open.wants_focus) = (Some(error), true);

@@ -93,7 +93,10 @@ pub(super) fn types_of(entries: &TypeEntries, rows: &[usize]) -> Vec<String> {
 }
 
 /// The value that all have, if they have the same, as it is shown.
-fn common<'a>(mut values: impl Iterator<Item = Option<Value<'a>>>, unit: Option<&str>) -> Common {
+pub(super) fn common<'a>(
+    mut values: impl Iterator<Item = Option<Value<'a>>>,
+    unit: Option<&str>,
+) -> Common {
     let Some(first) = values.next() else {
         return Common::None;
     };
@@ -120,7 +123,7 @@ pub(in crate::panels) fn kind_of(name: &str, values: &Values) -> FieldKind {
 }
 
 /// Kind of the field of a known property that no element has yet.
-pub(super) fn kind_of_property(property: &Property) -> FieldKind {
+fn kind_of_property(property: &Property) -> FieldKind {
     match property.kind {
         PropertyKind::Number(_) => FieldKind::Number,
         PropertyKind::Integer => FieldKind::Integer,
@@ -128,6 +131,17 @@ pub(super) fn kind_of_property(property: &Property) -> FieldKind {
         PropertyKind::Text => FieldKind::Text,
         PropertyKind::Choice(words) => FieldKind::Choice(words),
         PropertyKind::List | PropertyKind::Json => FieldKind::Json,
+    }
+}
+
+/// The field of a property without a value.
+pub(super) fn empty_field(property: &Property) -> Field {
+    Field {
+        name: property.name.to_owned(),
+        unit: property.quantity().map(|quantity| quantity.unit()),
+        kind: kind_of_property(property),
+        shared: Common::None,
+        per_type: Vec::new(),
     }
 }
 

@@ -5,14 +5,16 @@
 
 mod curvature_plot;
 mod draft;
+mod entry;
 mod facts;
 mod field;
+mod groups;
 mod pickers;
 mod shape;
 mod shown;
 mod typed_value;
 
-use eframe::egui::{Button, Grid, Label, TextEdit, Ui};
+use eframe::egui::{Button, Grid, Label, Ui};
 use guideway_document::Document;
 use guideway_layout::{ElementKind, PROPERTIES, Property};
 use guideway_scene::Table;
@@ -20,31 +22,24 @@ use guideway_scene::Table;
 pub(super) use self::field::{FieldKind, kind_of};
 pub(super) use self::typed_value::TypedValue;
 
-use self::draft::{Draft, Subject, Target};
+use self::draft::{Subject, Target};
+use self::entry::{Entry, name_width};
 use self::field::{Common, Field, MAX_COMPARED};
+use self::groups::ShownGroups;
 use self::shown::Shown;
 use crate::action::Action;
-use crate::editing::EditTask;
 use crate::files::{Layer, OpenFiles};
 use crate::language::{say, t, translated};
 use crate::units::{Units, shown_unit, units};
 
-/// Least width of the names beside the fields, in points.
-const NAME_WIDTH: f32 = 130.0;
-/// Greatest width: that of the longest name with its unit.
-const MAX_NAME_WIDTH: f32 = 200.0;
-/// Width of the button behind a field, with the margins of both, in points.
-const BUTTON_WIDTH: f32 = 42.0;
-
 /// The section: what is shown, and the text that is being typed.
 #[derive(Default)]
 pub(crate) struct PropertiesPanel {
-    /// Per kind of element, valid for one revision of a document.
+    /// Per kind of element, valid for one file and revision of its document.
     shown: Vec<Shown>,
-    draft: Option<Draft>,
-    /// The text of a field that the drawing ought to show, and the one that it shows.
-    wanted: Option<(Target, String)>,
-    previewed: Option<(Target, String)>,
+    groups: Vec<ShownGroups>,
+    key: Option<(usize, u64)>,
+    entry: Entry,
     /// True if the panel was shown since the last call of [`Self::leave_if_hidden`].
     is_shown: bool,
     /// Properties that the selection gets once they have a value.
@@ -60,27 +55,17 @@ pub(crate) struct PropertiesPanel {
 impl PropertiesPanel {
     /// The edit of a text that was typed but not confirmed yet.
     pub(crate) fn commit(&mut self) -> Vec<Action> {
-        let edit = self.draft.take().map_or(Ok(None), Draft::edit);
-        let mut actions = Vec::from_iter(self.discard());
-        match edit {
-            // It takes the preview back.
-            Ok(Some(edit)) => return vec![Action::Edit(edit)],
-            Ok(None) => {}
-            Err(error) => actions.push(Action::Notify(error)),
-        }
-        actions
+        self.entry.commit()
     }
 
     /// Returns `true` if a text is being typed.
     pub(crate) fn has_draft(&self) -> bool {
-        self.draft.is_some()
+        self.entry.has_draft()
     }
 
     /// Takes back a text that was typed but not confirmed.
     pub(crate) fn discard(&mut self) -> Option<Action> {
-        self.draft = None;
-        let shown = self.previewed.take();
-        shown.map(|_| Action::Edit(EditTask::end_preview()))
+        self.entry.discard()
     }
 
     /// As [`Self::commit`], if the panel was not shown since the last call: its field is left then.
@@ -99,31 +84,28 @@ impl PropertiesPanel {
     /// Shows the fields of the selection, and in the drawing what is typed into them.
     pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
         self.show_fields(ui, files, actions);
-        let wanted = self.wanted.take();
-        if wanted != self.previewed {
-            let preview = wanted
-                .as_ref()
-                .and_then(|(target, text)| target.preview(text));
-            self.previewed = wanted.filter(|_| preview.is_some());
-            actions.push(Action::Edit(preview.unwrap_or_else(EditTask::end_preview)));
-        }
+        self.entry.show_preview(actions);
     }
 
     fn show_fields(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
         // While an edit has the document the fields stay; what is typed is queued behind the edit.
         if let Some(document) = files.document() {
             if document.selected().is_empty() {
-                self.shown.clear();
+                self.forget();
                 self.added.clear();
                 self.added_types.clear();
                 ui.label(t(
-                    "Select paths, nodes or stations to see and edit their properties",
+                    "Select paths, nodes, stations, levels or vehicle types to see and edit them",
                 ));
                 return;
             }
             self.update(document, files.active_index());
         } else if !files.active().is_some_and(Layer::is_busy) {
-            self.shown.clear();
+            self.forget();
+        }
+        for groups in std::mem::take(&mut self.groups) {
+            groups.show(ui, &mut self.entry, actions);
+            self.groups.push(groups);
         }
         for shown in std::mem::take(&mut self.shown) {
             self.show_table(ui, &shown, actions);
@@ -131,24 +113,29 @@ impl PropertiesPanel {
         }
     }
 
+    fn forget(&mut self) {
+        self.shown.clear();
+        self.groups.clear();
+        self.key = None;
+    }
+
     /// Reads the selection again after a change.
     fn update(&mut self, document: &Document, file: usize) {
         let revision = document.revision();
-        let first = self.shown.first();
         // A field of which a preview is shown keeps its value and its place.
-        let is_same = |shown: &Shown| {
-            shown.file == file && (shown.revision == revision || document.is_preview())
+        let is_same = |(of_file, of_revision)| {
+            of_file == file && (of_revision == revision || document.is_preview())
         };
-        if self.units == units() && first.is_some_and(is_same) {
+        if self.units == units() && self.key.is_some_and(is_same) {
             return;
         }
         self.units = units();
+        self.key = Some((file, revision));
+        self.groups = ShownGroups::of_selection(document);
         let (layout, selected) = (document.layout(), document.selected());
         let tables = [Table::Paths, Table::Nodes, Table::Stations].into_iter();
         let tables = tables.filter(|&of| !selected.rows(of).is_empty());
-        self.shown = tables
-            .map(|of| Shown::new(layout, of, selected, (file, revision)))
-            .collect();
+        self.shown = tables.map(|of| Shown::new(layout, of, selected)).collect();
     }
 
     fn show_table(&mut self, ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
@@ -164,9 +151,8 @@ impl PropertiesPanel {
             ));
         }
         let element = shown.of.element();
-        let name_width = (0.5 * ui.available_width()).clamp(NAME_WIDTH, MAX_NAME_WIDTH);
         let grid = Grid::new(("properties", element)).num_columns(2);
-        grid.min_col_width(name_width).show(ui, |ui| {
+        grid.min_col_width(name_width(ui)).show(ui, |ui| {
             self.show_facts(ui, shown, actions);
             let added = self.added.clone();
             let added = added.iter().filter(|(of, _)| *of == shown.of);
@@ -184,7 +170,8 @@ impl PropertiesPanel {
         if let Some(name) = &facts.name {
             ui.label(t("identifier"));
             let value = Common::Same(name.clone());
-            self.text_field(ui, shown.target(Subject::Name), &value, actions);
+            self.entry
+                .text_field(ui, shown.target(Subject::Name), &value, actions);
             ui.end_row();
         }
         if let Some(nodes) = &facts.nodes {
@@ -194,7 +181,8 @@ impl PropertiesPanel {
                 true => Common::None,
                 false => Common::Same(nodes.clone()),
             };
-            self.text_field(ui, shown.target(Subject::Nodes), &value, actions);
+            self.entry
+                .text_field(ui, shown.target(Subject::Nodes), &value, actions);
             ui.end_row();
         }
         if let Some([start, end]) = &facts.ends {
@@ -207,7 +195,7 @@ impl PropertiesPanel {
         if shown.of == Table::Paths {
             ui.label(t("direction"));
             let hovered = pickers::direction(ui, shown, actions);
-            self.wanted = hovered.or(self.wanted.take());
+            self.entry.want(hovered);
             ui.end_row();
         }
         if !shown.levels.is_empty() {
@@ -302,13 +290,8 @@ impl PropertiesPanel {
     ) {
         let target = property_target(shown, field, per_type.map(|(name, _)| name));
         let value = per_type.map_or(&field.shared, |(_, value)| value);
-        let words: &[&str] = match field.kind {
-            FieldKind::Flag => &["true", "false"],
-            FieldKind::Choice(words) => words,
-            _ => return self.text_field(ui, target, value, actions),
-        };
-        let hovered = pickers::choice(ui, target, value, words, actions);
-        self.wanted = hovered.or(self.wanted.take());
+        self.entry
+            .typed_field(ui, target, (field.kind, value), actions);
     }
 
     /// Offers the known properties that no selected element has.
@@ -332,47 +315,6 @@ impl PropertiesPanel {
                 }
             }
         });
-    }
-
-    fn text_field(
-        &mut self,
-        ui: &mut Ui,
-        target: Target,
-        value: &Common,
-        actions: &mut Vec<Action>,
-    ) {
-        let (before, hint) = match value {
-            Common::Same(value) => (value.clone(), ""),
-            Common::None => (String::new(), t("none")),
-            Common::Several => (String::new(), t("several values")),
-        };
-        let typed = self.draft.as_ref().filter(|draft| draft.target == target);
-        let mut text = typed.map_or_else(|| before.clone(), |draft| draft.text.clone());
-        let field = TextEdit::singleline(&mut text).hint_text(hint);
-        let width = (ui.available_width() - BUTTON_WIDTH).max(BUTTON_WIDTH);
-        let response = ui.add(field.desired_width(width));
-        let has_focus = response.has_focus();
-        let is_typed = self
-            .draft
-            .as_ref()
-            .is_some_and(|draft| draft.target == target);
-        if has_focus && !is_typed {
-            // Another field is left.
-            actions.extend(self.commit());
-        }
-        if has_focus || response.lost_focus() && is_typed {
-            if has_focus && text != before && target.preview(&text).is_some() {
-                self.wanted = Some((target.clone(), text.clone()));
-            }
-            self.draft = Some(Draft {
-                target,
-                text,
-                before,
-            });
-        }
-        if response.lost_focus() && is_typed {
-            actions.extend(self.commit());
-        }
     }
 }
 

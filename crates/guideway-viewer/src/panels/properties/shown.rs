@@ -6,17 +6,14 @@ use guideway_document::{Elements, PathSet};
 use guideway_layout::{Layout, Level, Property};
 use guideway_scene::Table;
 
-use super::draft::{Subject, Target};
+use super::draft::{Owners, Subject, Target};
 use super::facts::Facts;
-use super::field::{Common, Field, MAX_COMPARED, fields, kind_of_property, types_of};
+use super::field::{Field, MAX_COMPARED, empty_field, fields, types_of};
 use super::shape::PathShape;
 use crate::language::counted;
 
 /// The selected elements of one table.
 pub(super) struct Shown {
-    /// Index of the file, and revision of its document.
-    pub(super) file: usize,
-    pub(super) revision: u64,
     pub(super) of: Table,
     pub(super) rows: Arc<PathSet>,
     pub(super) facts: Facts,
@@ -29,8 +26,8 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// Reads the selected elements of a table; `key` is file and revision.
-    pub(super) fn new(layout: &Layout, of: Table, selected: &Elements, key: (usize, u64)) -> Self {
+    /// Reads the selected elements of a table.
+    pub(super) fn new(layout: &Layout, of: Table, selected: &Elements) -> Self {
         let rows = selected.rows(of);
         let name = |level: &Level| level.name_or_id().to_owned();
         let some: Vec<usize> = rows
@@ -40,8 +37,6 @@ impl Shown {
             .collect();
         let entries = of.entries(layout);
         Self {
-            file: key.0,
-            revision: key.1,
             of,
             facts: Facts::new(layout, of, rows),
             fields: fields(layout, of, rows),
@@ -55,8 +50,7 @@ impl Shown {
     /// The field of these elements for a fact or property.
     pub(super) fn target(&self, subject: Subject) -> Target {
         Target {
-            of: self.of,
-            rows: Arc::clone(&self.rows),
+            of: Owners::Elements(self.of, Arc::clone(&self.rows)),
             subject,
         }
     }
@@ -64,13 +58,7 @@ impl Shown {
     /// The field of a property that no element has yet.
     pub(super) fn empty_field(&self, property: &Property) -> Option<Field> {
         let is_there = self.fields.iter().any(|field| field.name == property.name);
-        (!is_there).then(|| Field {
-            name: property.name.to_owned(),
-            unit: property.quantity().map(|quantity| quantity.unit()),
-            kind: kind_of_property(property),
-            shared: Common::None,
-            per_type: Vec::new(),
-        })
+        (!is_there).then(|| empty_field(property))
     }
 
     /// The elements, apart from other tables.

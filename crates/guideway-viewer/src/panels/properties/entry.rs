@@ -1,0 +1,134 @@
+//! The fields in which a user types: the widget of one, and the text that is being typed.
+
+use eframe::egui::{TextEdit, Ui};
+
+use super::draft::{Draft, Target};
+use super::field::{Common, FieldKind};
+use super::pickers;
+use crate::action::Action;
+use crate::editing::EditTask;
+use crate::language::t;
+
+/// Least width of the names, in points.
+const NAME_WIDTH: f32 = 130.0;
+/// Greatest width: that of the longest name with its unit.
+const MAX_NAME_WIDTH: f32 = 200.0;
+/// Width of the button behind a field, with the margins of both, in points.
+const BUTTON_WIDTH: f32 = 42.0;
+
+/// The text that is being typed, and its preview.
+#[derive(Default)]
+pub(super) struct Entry {
+    draft: Option<Draft>,
+    /// The text of a field that the drawing ought to show, and the one that it shows.
+    wanted: Option<(Target, String)>,
+    previewed: Option<(Target, String)>,
+}
+
+impl Entry {
+    /// The edit of a text that was typed but not confirmed yet.
+    pub(super) fn commit(&mut self) -> Vec<Action> {
+        let edit = self.draft.take().map_or(Ok(None), Draft::edit);
+        let mut actions = Vec::from_iter(self.discard());
+        match edit {
+            // It takes the preview back.
+            Ok(Some(edit)) => return vec![edit],
+            Ok(None) => {}
+            Err(error) => actions.push(Action::Notify(error)),
+        }
+        actions
+    }
+
+    /// Returns `true` if a text is being typed.
+    pub(super) fn has_draft(&self) -> bool {
+        self.draft.is_some()
+    }
+
+    /// Takes back a text that was typed but not confirmed.
+    pub(super) fn discard(&mut self) -> Option<Action> {
+        self.draft = None;
+        let shown = self.previewed.take();
+        shown.map(|_| Action::Edit(EditTask::end_preview()))
+    }
+
+    /// The drawing ought to show this choice, if there is one.
+    pub(super) fn want(&mut self, hovered: Option<(Target, String)>) {
+        self.wanted = hovered.or(self.wanted.take());
+    }
+
+    /// Shows in the drawing what is typed or pointed at.
+    pub(super) fn show_preview(&mut self, actions: &mut Vec<Action>) {
+        let wanted = self.wanted.take();
+        if wanted != self.previewed {
+            let preview = wanted
+                .as_ref()
+                .and_then(|(target, text)| target.preview(text));
+            self.previewed = wanted.filter(|_| preview.is_some());
+            actions.push(Action::Edit(preview.unwrap_or_else(EditTask::end_preview)));
+        }
+    }
+
+    /// Shows a field for values of a kind.
+    pub(super) fn typed_field(
+        &mut self,
+        ui: &mut Ui,
+        target: Target,
+        (kind, value): (FieldKind, &Common),
+        actions: &mut Vec<Action>,
+    ) {
+        let words: &[&str] = match kind {
+            FieldKind::Flag => &["true", "false"],
+            FieldKind::Choice(words) => words,
+            _ => return self.text_field(ui, target, value, actions),
+        };
+        let hovered = pickers::choice(ui, target, value, words, actions);
+        self.want(hovered);
+    }
+
+    /// Shows a field for a text.
+    pub(super) fn text_field(
+        &mut self,
+        ui: &mut Ui,
+        target: Target,
+        value: &Common,
+        actions: &mut Vec<Action>,
+    ) {
+        let (before, hint) = match value {
+            Common::Same(value) => (value.clone(), ""),
+            Common::None => (String::new(), t("none")),
+            Common::Several => (String::new(), t("several values")),
+        };
+        let typed = self.draft.as_ref().filter(|draft| draft.target == target);
+        let mut text = typed.map_or_else(|| before.clone(), |draft| draft.text.clone());
+        let field = TextEdit::singleline(&mut text).hint_text(hint);
+        let width = (ui.available_width() - BUTTON_WIDTH).max(BUTTON_WIDTH);
+        let response = ui.add(field.desired_width(width));
+        let has_focus = response.has_focus();
+        let is_typed = self
+            .draft
+            .as_ref()
+            .is_some_and(|draft| draft.target == target);
+        if has_focus && !is_typed {
+            // Another field is left.
+            actions.extend(self.commit());
+        }
+        if has_focus || response.lost_focus() && is_typed {
+            if has_focus && text != before && target.preview(&text).is_some() {
+                self.wanted = Some((target.clone(), text.clone()));
+            }
+            self.draft = Some(Draft {
+                target,
+                text,
+                before,
+            });
+        }
+        if response.lost_focus() && is_typed {
+            actions.extend(self.commit());
+        }
+    }
+}
+
+/// Width of the names beside the fields, in points.
+pub(super) fn name_width(ui: &Ui) -> f32 {
+    (0.5 * ui.available_width()).clamp(NAME_WIDTH, MAX_NAME_WIDTH)
+}
