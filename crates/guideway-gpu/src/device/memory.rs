@@ -108,7 +108,20 @@ impl Memory {
         bytes: u64,
         usage: BufferUsages,
     ) -> Result<DeviceBuffer, RenderError> {
-        self.allocate(what, bytes, usage, false)
+        let reservation = self.reserve(what, bytes)?;
+        let descriptor = wgpu::BufferDescriptor {
+            label: Some(what),
+            size: bytes,
+            usage,
+            mapped_at_creation: false,
+        };
+        let device = &self.gpu.device;
+        let created = self.gpu.checked(what, || device.create_buffer(&descriptor));
+        let buffer = created.map_err(|error| self.device_error(&error))?;
+        Ok(DeviceBuffer {
+            buffer,
+            _reservation: reservation,
+        })
     }
 
     /// Replaces a buffer by a larger one with its contents, and zeros behind them. The copy is made
@@ -134,7 +147,7 @@ impl Memory {
         Ok(())
     }
 
-    /// Creates a storage buffer of these values; at least one.
+    /// Creates a storage buffer of these values; at least one. All threads copy them.
     ///
     /// # Errors
     /// As [`Self::zeros`].
@@ -143,43 +156,22 @@ impl Memory {
         what: &'static str,
         values: &[T],
     ) -> Result<DeviceBuffer, RenderError> {
-        let bytes: &[u8] = bytemuck::cast_slice(values);
-        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
-        let created = self.allocate(what, bytes.len() as u64, usage, true)?;
-        match created.buffer.get_mapped_range_mut(..) {
-            Ok(mut view) => view.copy_from_slice(bytes),
-            Err(error) => {
-                return Err(self.device_error(&DeviceError::Rejected {
-                    operation: what.to_owned(),
-                    message: error.to_string(),
-                }));
-            }
-        }
-        created.buffer.unmap();
-        Ok(created)
+        self.upload_parts(what, &[bytemuck::cast_slice(values)])
     }
 
-    fn allocate(
+    /// As [`Self::upload`], of parts back to back, of whole words.
+    pub(crate) fn upload_parts(
         &mut self,
         what: &'static str,
-        bytes: u64,
-        usage: BufferUsages,
-        mapped_at_creation: bool,
+        parts: &[&[u8]],
     ) -> Result<DeviceBuffer, RenderError> {
-        let reservation = self.reserve(what, bytes)?;
-        let descriptor = wgpu::BufferDescriptor {
-            label: Some(what),
-            size: bytes,
-            usage,
-            mapped_at_creation,
-        };
-        let device = &self.gpu.device;
-        let created = self.gpu.checked(what, || device.create_buffer(&descriptor));
-        let buffer = created.map_err(|error| self.device_error(&error))?;
-        Ok(DeviceBuffer {
-            buffer,
-            _reservation: reservation,
-        })
+        let bytes = parts.iter().map(|part| part.len() as u64).sum();
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+        let created = self.zeros(what, bytes, usage)?;
+        // A buffer that is mapped when it is created gets zeros first.
+        let written = self.gpu.write_parts(what, created.raw(), 0, parts);
+        written.map_err(|error| self.device_error(&error))?;
+        Ok(created)
     }
 
     /// Converts an error of the device to one of the method.

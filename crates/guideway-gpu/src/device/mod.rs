@@ -8,6 +8,7 @@
 //! | `kernel` | [`Source`], [`Kernel`], [`Bindings`]: compute pipelines |
 //! | `memory` | [`Memory`], [`DeviceBuffer`]: buffers charged to the memory budget of a method |
 //! | `runner`, `readback` | [`Runner`]: submits dispatches, times stages, reads buffers back |
+//! | `writer` | copies lists to the device by all threads |
 //! | `patch`, `patcher` | collects many small changes of a buffer; sends them in few submissions |
 //! | `error` | [`DeviceError`] |
 
@@ -22,6 +23,7 @@ mod patch;
 mod patcher;
 mod readback;
 mod runner;
+mod writer;
 
 pub use adapter::adapters;
 pub use error::DeviceError;

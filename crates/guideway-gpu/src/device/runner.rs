@@ -4,7 +4,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{Clock, RenderError, Stage, elapsed_ms};
-use rayon::prelude::*;
 use wgpu::BufferUsages;
 
 use super::error::DeviceError;
@@ -13,8 +12,6 @@ use super::kernel::{Bindings, Kernel};
 use super::memory::{DeviceBuffer, Memory};
 use super::readback::{PendingRead, READBACK_USAGE};
 
-/// Bytes that one task copies: some 10 microseconds of work.
-const COPY_BYTES: usize = 1 << 16;
 /// Most stages per submission.
 const MAX_STAGES: usize = 12;
 /// Bytes of two timestamps per stage: its begin and its end.
@@ -109,10 +106,8 @@ impl Runner {
         values: &[T],
     ) -> Result<(), DeviceError> {
         let offset = u64::from(first) * size_of::<T>() as u64;
-        let bytes = bytemuck::cast_slice(values);
-        self.gpu.checked(what, || {
-            self.gpu.queue.write_buffer(buffer.raw(), offset, bytes);
-        })
+        let parts = [bytemuck::cast_slice(values)];
+        self.gpu.write_parts(what, buffer.raw(), offset, &parts)
     }
 
     /// Writes parts back to back from the start of a buffer, before the next submission.
@@ -126,24 +121,11 @@ impl Runner {
         buffer: &DeviceBuffer,
         parts: &[&[u32]],
     ) -> Result<(), DeviceError> {
-        let bytes = parts.iter().map(|part| size_of_val(*part) as u64).sum();
-        let Some(size) = wgpu::BufferSize::new(bytes) else {
-            return Ok(());
-        };
-        self.gpu.checked(what, || {
-            let queue = &self.gpu.queue;
-            let Some(mut view) = queue.write_buffer_with(buffer.raw(), 0, size) else {
-                return;
-            };
-            let joined = Joined::new(parts);
-            let (chunks, rest) = view.slice(..).into_chunks::<COPY_BYTES>();
-            let rest_first = bytes as usize - rest.len();
-            let chunks: Vec<_> = chunks.into_iter().zip((0..).step_by(COPY_BYTES)).collect();
-            chunks
-                .into_par_iter()
-                .for_each(|(chunk, first)| joined.copy(first, chunk.into()));
-            joined.copy(rest_first, rest);
-        })
+        let parts: Vec<&[u8]> = parts
+            .iter()
+            .map(|part| bytemuck::cast_slice(part))
+            .collect();
+        self.gpu.write_parts(what, buffer.raw(), 0, &parts)
     }
 
     /// Submits dispatches without waiting. Later submissions run after them.
@@ -310,42 +292,6 @@ impl Runner {
         match pending {
             Some(read) => read.finish(&self.gpu, take),
             None => Ok(()),
-        }
-    }
-}
-
-/// Parts laid out back to back.
-struct Joined<'a> {
-    parts: &'a [&'a [u32]],
-    /// End of each part in bytes.
-    ends: Vec<usize>,
-}
-
-impl<'a> Joined<'a> {
-    fn new(parts: &'a [&'a [u32]]) -> Self {
-        let mut end = 0;
-        let ends = parts.iter().map(|part| {
-            end += size_of_val(*part);
-            end
-        });
-        Self {
-            ends: ends.collect(),
-            parts,
-        }
-    }
-
-    /// Fills memory with the bytes from `first` on.
-    fn copy(&self, first: usize, mut to: wgpu::WriteOnly<'_, [u8]>) {
-        let mut at = self.ends.partition_point(|end| *end <= first);
-        let (mut first, mut filled) = (first, 0);
-        while filled < to.len() {
-            let part: &[u8] = bytemuck::cast_slice(self.parts[at]);
-            let left = self.ends[at] - first;
-            let count = left.min(to.len() - filled);
-            let from = part.len() - left;
-            to.slice(filled..filled + count)
-                .copy_from_slice(&part[from..from + count]);
-            (first, filled, at) = (first + count, filled + count, at + 1);
         }
     }
 }

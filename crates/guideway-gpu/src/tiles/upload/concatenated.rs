@@ -1,7 +1,10 @@
-//! Memory of long lists: joins those of tasks by all threads, and keeps what is freed.
+//! Memory of long lists: keeps those of tasks apart or joins them by all threads, and keeps what is
+//! freed.
 
-use bytemuck::Zeroable;
+use std::ops::Range;
+
 use bytemuck::allocation::zeroed_vec;
+use bytemuck::{NoUninit, Zeroable};
 use rayon::prelude::*;
 
 /// The elements of all lists, in order. Fresh memory costs more than the copy, so that the threads
@@ -18,6 +21,50 @@ pub(super) fn concatenated<T: Copy + Send + Sync + Zeroable>(lists: &[&[T]]) -> 
     let copies = places.into_par_iter().zip(lists);
     copies.for_each(|(place, list)| place.copy_from_slice(list));
     all
+}
+
+/// A long list in pieces, as tasks made them. Fresh memory for all of it costs more than the device
+/// needs to take it piece by piece.
+#[derive(Default)]
+pub(crate) struct Pieces<T>(Vec<Vec<T>>);
+
+impl<T: Copy + NoUninit + Send + Sync + Zeroable> Pieces<T> {
+    /// The pieces in order.
+    pub(super) fn new(pieces: impl Iterator<Item = Vec<T>>) -> Self {
+        Self(pieces.filter(|piece| !piece.is_empty()).collect())
+    }
+
+    /// Number of elements.
+    pub(super) fn len(&self) -> usize {
+        self.0.iter().map(Vec::len).sum()
+    }
+
+    /// Returns `true` if there are no elements.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The pieces.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &[T]> {
+        self.0.iter().map(Vec::as_slice)
+    }
+
+    /// The bytes of some elements.
+    pub(super) fn bytes_of(&self, range: Range<usize>) -> Vec<&[u8]> {
+        let mut first = 0;
+        let parts = self.iter().map(|piece| {
+            let within = |at: usize| at.clamp(first, first + piece.len()) - first;
+            let part = &piece[within(range.start)..within(range.end)];
+            first += piece.len();
+            bytemuck::cast_slice(part)
+        });
+        parts.filter(|part: &&[u8]| !part.is_empty()).collect()
+    }
+
+    /// All elements in one list.
+    pub(super) fn joined(&self) -> Vec<T> {
+        concatenated(&self.iter().collect::<Vec<_>>())
+    }
 }
 
 /// Lets the allocator keep freed memory of up to 32 MB: fresh pages cost more than what edits write
@@ -40,5 +87,19 @@ mod tests {
         let slices: Vec<&[u32]> = lists.iter().map(Vec::as_slice).collect();
         assert_eq!(concatenated(&slices), lists.concat());
         assert_eq!(concatenated::<u32>(&[]), []);
+    }
+
+    #[test]
+    fn pieces_give_the_bytes_of_any_range() {
+        let lists = [vec![], vec![1_u8, 2], vec![3], vec![], vec![4, 5, 6]];
+        let pieces = Pieces::new(lists.into_iter());
+        let all = pieces.joined();
+        assert_eq!((pieces.len(), &all[..]), (6, &[1, 2, 3, 4, 5, 6][..]));
+        for range in [0..6, 0..0, 1..3, 2..2, 2..5, 3..6, 6..6] {
+            let parts = pieces.bytes_of(range.clone());
+            assert_eq!(parts.concat(), all[range]);
+            assert!(parts.iter().all(|part| !part.is_empty()));
+        }
+        assert!(Pieces::<u8>::new([vec![]].into_iter()).is_empty());
     }
 }

@@ -315,8 +315,11 @@ fn send(
         path_strokes.append(buffers, strokes, first_new, uploaded.scene.row_count());
         let first_point = buffers.cluster_list[first_new].first_point;
         let mut points = Patch::default();
-        let first_word = first_point as usize * PointFormat::Exact.words();
-        points.set_all(first_word, &packed.exact_m);
+        let mut word = first_point as usize * PointFormat::Exact.words();
+        for piece in packed.exact_m.iter() {
+            points.set_all(word, piece);
+            word += piece.len() * PointFormat::Exact.words();
+        }
         patches.add_finished(Target::Points(index), points);
         effect.moved_bytes += buffers.send_new(device, [strokes, first_new])?;
     }

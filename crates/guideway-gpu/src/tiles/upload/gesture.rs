@@ -25,7 +25,7 @@ use crate::device::{Patcher, SET_BIT};
 use crate::tiles::cache::picture_cache::DirtyArea;
 use crate::tiles::constants::HIDDEN_STROKE;
 use crate::tiles::device_context::{DeviceContext, device_error};
-use crate::tiles::layouts::Cluster;
+use crate::tiles::layouts::{Cluster, PointFormat};
 
 /// Paths of a gesture by the clusters that hold them.
 struct Selection {
@@ -122,7 +122,7 @@ pub(crate) fn begin(
     let packed = Packed::of_sorted(scene, &parts, uploaded.packing.exact());
     let [clusters, strokes] = [buffers.cluster_list.len(), buffers.stroke_list.len()];
     let point_buffers = buffers.point_buffers.len();
-    effect.moved_bytes += size_of_val(packed.exact_m.as_slice()) as u64;
+    effect.moved_bytes += PointFormat::Exact.bytes(packed.exact_m.len() as u32);
     buffers.append_apart(&device.gpu, &mut device.memory, packed)?;
     uploaded.is_incomplete = true;
     buffers.hidden.grow(strokes);

@@ -7,7 +7,7 @@ use guideway_spline::{Bounds, Point, hilbert};
 use rayon::prelude::*;
 
 use super::cluster::ClusterOrigin;
-use super::concatenated::{concatenated, keep_freed_memory};
+use super::concatenated::{Pieces, keep_freed_memory};
 use super::path_parts::PathPart;
 use crate::tiles::constants::CLUSTER_STROKES;
 use crate::tiles::layouts::{Cluster, PathStyle, PointFormat, Stroke};
@@ -32,12 +32,20 @@ pub(crate) struct Packing {
 }
 
 /// Packed strokes. Clusters index these points and strokes; those with rounded points come first.
-#[derive(Default)]
 pub(crate) struct Packed {
-    pub(crate) rounded: Vec<u32>,
-    pub(crate) exact_m: Vec<[f32; 2]>,
-    pub(crate) strokes: Vec<Stroke>,
+    pub(crate) rounded: Pieces<u32>,
+    pub(crate) exact_m: Pieces<[f32; 2]>,
+    pub(crate) strokes: Pieces<Stroke>,
     pub(crate) clusters: Vec<Cluster>,
+}
+
+/// The result of a task; its clusters index its own points and strokes.
+#[derive(Default)]
+struct PackedTask {
+    rounded: Vec<u32>,
+    exact_m: Vec<[f32; 2]>,
+    strokes: Vec<Stroke>,
+    clusters: Vec<Cluster>,
 }
 
 impl Packing {
@@ -105,18 +113,50 @@ impl Packed {
     /// Packs parts whose neighbors in the world are neighbors already. All threads share the work.
     pub(crate) fn of_sorted(scene: &Scene, parts: &[PathPart], packing: Packing) -> Self {
         let tasks = parts.par_chunks(TASK_PARTS);
-        let tasks = tasks.map(|parts| Self::of_task(scene, parts, packing));
+        let tasks = tasks.map(|parts| PackedTask::of(scene, parts, packing));
         let (mut packed, mut exact) = (Vec::new(), Vec::new());
         for [rounded, of_exact] in tasks.collect::<Vec<_>>() {
             packed.push(rounded);
             exact.push(of_exact);
         }
         packed.append(&mut exact);
-        Self::joined(&packed)
+        Self::joined(packed)
     }
 
-    /// Packs the parts of a task: clusters of rounded and of exact points.
-    fn of_task(scene: &Scene, parts: &[PathPart], packing: Packing) -> [Self; 2] {
+    /// Joins clusters with their strokes and points.
+    fn joined(mut tasks: Vec<PackedTask>) -> Self {
+        let (mut first_stroke, mut first_points) = (0, [0, 0]);
+        let mut clusters = Vec::with_capacity(tasks.iter().map(|task| task.clusters.len()).sum());
+        for task in &tasks {
+            clusters.extend(task.clusters.iter().map(|cluster| Cluster {
+                first_stroke: cluster.first_stroke + first_stroke,
+                first_point: cluster.first_point + first_points[cluster.format() as usize],
+                ..*cluster
+            }));
+            first_stroke += task.strokes.len() as u32;
+            first_points[PointFormat::Rounded as usize] += task.rounded.len() as u32;
+            first_points[PointFormat::Exact as usize] += task.exact_m.len() as u32;
+        }
+        let points = tasks.iter_mut();
+        let points = points.map(|task| {
+            (
+                std::mem::take(&mut task.rounded),
+                std::mem::take(&mut task.exact_m),
+            )
+        });
+        let (rounded, exact_m): (Vec<_>, Vec<_>) = points.unzip();
+        Self {
+            rounded: Pieces::new(rounded.into_iter()),
+            exact_m: Pieces::new(exact_m.into_iter()),
+            strokes: Pieces::new(tasks.into_iter().map(|task| task.strokes)),
+            clusters,
+        }
+    }
+}
+
+impl PackedTask {
+    /// Packs parts: clusters of rounded and of exact points.
+    fn of(scene: &Scene, parts: &[PathPart], packing: Packing) -> [Self; 2] {
         let (mut packed, mut exact) = (Self::default(), Self::default());
         for parts in parts.chunks(CLUSTER_STROKES as usize) {
             let points = parts.iter().flat_map(|part| part.points(scene.layout()));
@@ -130,43 +170,6 @@ impl Packed {
             }
         }
         [packed, exact]
-    }
-
-    /// Joins clusters with their strokes and points.
-    fn joined(tasks: &[Self]) -> Self {
-        let (mut first_stroke, mut first_points) = (0, [0, 0]);
-        let mut clusters = Vec::with_capacity(tasks.iter().map(|task| task.clusters.len()).sum());
-        for task in tasks {
-            clusters.extend(task.clusters.iter().map(|cluster| Cluster {
-                first_stroke: cluster.first_stroke + first_stroke,
-                first_point: cluster.first_point + first_points[cluster.format() as usize],
-                ..*cluster
-            }));
-            first_stroke += task.strokes.len() as u32;
-            first_points[PointFormat::Rounded as usize] += task.rounded.len() as u32;
-            first_points[PointFormat::Exact as usize] += task.exact_m.len() as u32;
-        }
-        Self {
-            rounded: concatenated(
-                &tasks
-                    .iter()
-                    .map(|task| &task.rounded[..])
-                    .collect::<Vec<_>>(),
-            ),
-            exact_m: concatenated(
-                &tasks
-                    .iter()
-                    .map(|task| &task.exact_m[..])
-                    .collect::<Vec<_>>(),
-            ),
-            strokes: concatenated(
-                &tasks
-                    .iter()
-                    .map(|task| &task.strokes[..])
-                    .collect::<Vec<_>>(),
-            ),
-            clusters,
-        }
     }
 
     fn add(&mut self, scene: &Scene, mut cluster: Cluster, parts: &[PathPart]) {

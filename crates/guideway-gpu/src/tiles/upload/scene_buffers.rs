@@ -67,19 +67,20 @@ impl SceneBuffers {
             return Ok(None);
         }
         let style_list = style_list(scene, &ranks);
-        let strokes_bytes = size_of_val(packed.strokes.as_slice()) as u64;
-        check_binding(gpu, "the strokes", strokes_bytes)?;
+        let strokes = packed.strokes.len();
+        let strokes_bytes = strokes * size_of::<Stroke>();
+        check_binding(gpu, "the strokes", strokes_bytes as u64)?;
         check_binding(gpu, "the styles", size_of_val(style_list.as_slice()) as u64)?;
         let point_buffers = upload_points(gpu, memory, &mut packed, 0)?;
         drop((packed.rounded, packed.exact_m));
         let mut buffers = Self {
             point_buffers,
             exact_points: None,
-            strokes: memory.upload("the strokes", &packed.strokes)?,
+            strokes: memory.upload_parts("the strokes", &packed.strokes.bytes_of(0..strokes))?,
             clusters: memory.upload("the clusters", &packed.clusters)?,
             styles: memory.upload("the styles", &style_list)?,
             counters: counters(memory, packed.clusters.len())?,
-            stroke_list: packed.strokes,
+            stroke_list: packed.strokes.joined(),
             cluster_list: packed.clusters,
             hidden: HiddenStrokes::default(),
             whole_paths: Vec::new(),
@@ -157,7 +158,8 @@ impl SceneBuffers {
         let index = self.point_buffers.len() - 1;
         let buffer = &mut self.point_buffers[index];
         let first_stroke = self.stroke_list.len() as u32;
-        self.stroke_list.extend_from_slice(&packed.strokes);
+        let strokes = packed.strokes.iter();
+        strokes.for_each(|piece| self.stroke_list.extend_from_slice(piece));
         let shifted = packed.clusters.iter().map(|cluster| Cluster {
             first_point: cluster.first_point + buffer.used_points,
             first_stroke: cluster.first_stroke + first_stroke,
@@ -180,7 +182,8 @@ impl SceneBuffers {
         let first_cluster = self.cluster_list.len() as u32;
         let points = upload_points(gpu, memory, &mut packed, first_cluster)?;
         self.point_buffers.extend(points);
-        self.stroke_list.append(&mut packed.strokes);
+        let strokes = packed.strokes.iter();
+        strokes.for_each(|piece| self.stroke_list.extend_from_slice(piece));
         let shifted = packed.clusters.iter().map(|cluster| Cluster {
             first_stroke: cluster.first_stroke + first_stroke,
             ..*cluster
@@ -305,8 +308,8 @@ fn upload_points(
         };
         let (what, points) = ("the control points", first as usize..end as usize);
         let points = match format {
-            PointFormat::Rounded => memory.upload(what, &packed.rounded[points])?,
-            PointFormat::Exact => memory.upload(what, &packed.exact_m[points])?,
+            PointFormat::Rounded => memory.upload_parts(what, &packed.rounded.bytes_of(points))?,
+            PointFormat::Exact => memory.upload_parts(what, &packed.exact_m.bytes_of(points))?,
         };
         let range = range.start + first_cluster..range.end + first_cluster;
         let mut buffer = PointBuffer::new(memory, points, format, range, distance)?;
