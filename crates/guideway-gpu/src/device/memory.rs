@@ -156,16 +156,18 @@ impl Memory {
         what: &'static str,
         values: &[T],
     ) -> Result<DeviceBuffer, RenderError> {
-        self.upload_parts(what, &[bytemuck::cast_slice(values)])
+        self.upload_parts(what, &[bytemuck::cast_slice(values)], 0)
     }
 
-    /// As [`Self::upload`], of parts back to back, of whole words.
+    /// As [`Self::upload`], of parts back to back, of whole words, and zeros up to `least_bytes`.
     pub(crate) fn upload_parts(
         &mut self,
         what: &'static str,
         parts: &[&[u8]],
+        least_bytes: u64,
     ) -> Result<DeviceBuffer, RenderError> {
-        let bytes = parts.iter().map(|part| part.len() as u64).sum();
+        let bytes = parts.iter().map(|part| part.len() as u64).sum::<u64>();
+        let bytes = bytes.max(least_bytes);
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         let created = self.zeros(what, bytes, usage)?;
         // A buffer that is mapped when it is created gets zeros first.

@@ -162,7 +162,7 @@ impl Stroke {
         self.segments() + 3
     }
 
-    fn segments(self) -> u32 {
+    pub(crate) fn segments(self) -> u32 {
         self.extent >> SEGMENTS_BIT & MAX_SEGMENTS
     }
 }

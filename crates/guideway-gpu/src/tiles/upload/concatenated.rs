@@ -7,10 +7,15 @@ use bytemuck::allocation::zeroed_vec;
 use bytemuck::{NoUninit, Zeroable};
 use rayon::prelude::*;
 
-/// The elements of all lists, in order. Fresh memory costs more than the copy, so that the threads
-/// share both.
-pub(super) fn concatenated<T: Copy + Send + Sync + Zeroable>(lists: &[&[T]]) -> Vec<T> {
-    let mut all = zeroed_vec(lists.iter().map(|list| list.len()).sum());
+/// The elements of all lists, in order, in memory with room for `spare` more. Fresh memory costs
+/// more than the copy, so that the threads share both.
+pub(super) fn concatenated<T: Copy + Send + Sync + Zeroable>(
+    lists: &[&[T]],
+    spare: usize,
+) -> Vec<T> {
+    let len = lists.iter().map(|list| list.len()).sum();
+    let mut all = zeroed_vec(len + spare);
+    all.truncate(len);
     let mut rest = &mut all[..];
     let mut places = Vec::with_capacity(lists.len());
     for list in lists {
@@ -61,9 +66,9 @@ impl<T: Copy + NoUninit + Send + Sync + Zeroable> Pieces<T> {
         parts.filter(|part: &&[u8]| !part.is_empty()).collect()
     }
 
-    /// All elements in one list.
-    pub(super) fn joined(&self) -> Vec<T> {
-        concatenated(&self.iter().collect::<Vec<_>>())
+    /// All elements in one list, with room for `spare` more.
+    pub(super) fn joined(&self, spare: usize) -> Vec<T> {
+        concatenated(&self.iter().collect::<Vec<_>>(), spare)
     }
 }
 
@@ -85,15 +90,18 @@ mod tests {
             .map(|n| (0..n % 7).map(|i| n + i).collect())
             .collect();
         let slices: Vec<&[u32]> = lists.iter().map(Vec::as_slice).collect();
-        assert_eq!(concatenated(&slices), lists.concat());
-        assert_eq!(concatenated::<u32>(&[]), []);
+        assert_eq!(concatenated(&slices, 0), lists.concat());
+        let with_spare = concatenated(&slices, 50);
+        assert_eq!(with_spare, lists.concat());
+        assert!(with_spare.capacity() >= with_spare.len() + 50);
+        assert_eq!(concatenated::<u32>(&[], 0), []);
     }
 
     #[test]
     fn pieces_give_the_bytes_of_any_range() {
         let lists = [vec![], vec![1_u8, 2], vec![3], vec![], vec![4, 5, 6]];
         let pieces = Pieces::new(lists.into_iter());
-        let all = pieces.joined();
+        let all = pieces.joined(0);
         assert_eq!((pieces.len(), &all[..]), (6, &[1, 2, 3, 4, 5, 6][..]));
         for range in [0..6, 0..0, 1..3, 2..2, 2..5, 3..6, 6..6] {
             let parts = pieces.bytes_of(range.clone());

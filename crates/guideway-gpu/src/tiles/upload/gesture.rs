@@ -6,19 +6,21 @@
 //!   meanwhile   clusters | A: mapped       | B: these hidden  | C       | D: those of B, mapped |
 //! ```
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use guideway_scene::cluster::DirtyClusters;
-use guideway_scene::{Gesture, GesturePaths, RenderError};
+use guideway_scene::{Gesture, GesturePaths, RenderError, Scene};
 use guideway_spline::Affine;
 use rayon::prelude::*;
 
 use super::edit_effect::EditEffect;
 use super::edit_patches::STROKE_WORDS;
 use super::pack::Packed;
+use super::path_parts::{PathPart, parts_of};
 use super::path_strokes::{PathStrokes, cluster_of};
 use super::point_buffer::ViewDistance;
-use super::scene_buffers::{SceneBuffers, parts_of};
+use super::scene_buffers::SceneBuffers;
 use super::shown_gesture::ShownGesture;
 use super::uploaded_scene::UploadedScene;
 use crate::device::{Patcher, SET_BIT};
@@ -28,62 +30,87 @@ use crate::tiles::device_context::{DeviceContext, device_error};
 use crate::tiles::layouts::{Cluster, PointFormat};
 
 /// Paths of a gesture by the clusters that hold them.
+#[derive(Default)]
 struct Selection {
     /// Clusters that draw no other path.
     whole: Vec<usize>,
-    /// Paths with a stroke in another cluster, each once, neighbors side by side.
-    split_paths: Vec<u32>,
-    /// All strokes of these paths, ascending.
+    /// Paths of one stroke in another cluster, and the strokes: neighbors side by side.
+    split: Vec<PathPart>,
     split_strokes: Vec<u32>,
+    /// Other paths with a stroke there; some occur several times.
+    split_several: Vec<u32>,
 }
 
 impl Selection {
     fn of(buffers: &SceneBuffers, is_selected: &[bool]) -> Self {
-        let row = |stroke: u32| buffers.ranks.row(buffers.stroke_list[stroke as usize].rank);
-        let is_part =
-            |stroke: &u32| buffers.is_drawn(*stroke) && is_selected[row(*stroke) as usize];
-        let of_task = |clusters: Range<usize>| {
-            let (mut whole, mut paths) = (Vec::new(), Vec::new());
-            for index in clusters {
-                let cluster = &buffers.cluster_list[index];
-                let strokes = cluster.first_stroke..cluster.first_stroke + cluster.strokes;
-                let drawn = strokes.clone().filter(|stroke| buffers.is_drawn(*stroke));
-                let (drawn, first) = (drawn.count(), paths.len());
-                paths.extend(strokes.filter(is_part).map(row));
-                if drawn > 0 && paths.len() - first == drawn {
-                    whole.push(index);
-                    paths.truncate(first);
-                }
-            }
-            (whole, paths)
-        };
         let all = buffers.cluster_list.len();
         let tasks = (0..all).into_par_iter().step_by(TASK_CLUSTERS);
-        let tasks = tasks.map(|first| of_task(first..all.min(first + TASK_CLUSTERS)));
-        let (mut whole, mut split_paths) = (Vec::new(), Vec::new());
-        for (mut of_task, mut paths) in tasks.collect::<Vec<_>>() {
-            whole.append(&mut of_task);
-            split_paths.append(&mut paths);
-        }
-        // Clusters follow the Hilbert curve, so their paths need not be sorted again.
-        let mut known = vec![false; is_selected.len()];
-        split_paths.retain(|&path| !std::mem::replace(&mut known[path as usize], true));
-        let is_split = |stroke: &u32| known[row(*stroke) as usize] && buffers.is_drawn(*stroke);
-        let split_strokes = match split_paths.is_empty() {
-            true => Vec::new(),
-            false => {
-                let strokes = (0..buffers.stroke_list.len() as u32).into_par_iter();
-                strokes
-                    .with_min_len(TASK_STROKES)
-                    .filter(is_split)
-                    .collect()
+        let of_task = |first| {
+            let mut selection = Self::default();
+            for index in first..all.min(first + TASK_CLUSTERS) {
+                selection.add(buffers, is_selected, index);
             }
+            selection
         };
-        Self {
-            whole,
-            split_paths,
-            split_strokes,
+        let tasks: Vec<Self> = tasks.map(of_task).collect();
+        let split = tasks.iter().map(|task| task.split.len()).sum();
+        let mut selection = Self {
+            split: Vec::with_capacity(split),
+            split_strokes: Vec::with_capacity(split),
+            ..Self::default()
+        };
+        for mut of_task in tasks {
+            selection.whole.append(&mut of_task.whole);
+            selection.split.append(&mut of_task.split);
+            selection.split_strokes.append(&mut of_task.split_strokes);
+            selection.split_several.append(&mut of_task.split_several);
         }
+        selection
+    }
+
+    /// Adds the selected paths of a cluster.
+    fn add(&mut self, buffers: &SceneBuffers, is_selected: &[bool], index: usize) {
+        let cluster = &buffers.cluster_list[index];
+        let [first, first_several] = [self.split.len(), self.split_several.len()];
+        let mut drawn = 0;
+        for number in cluster.first_stroke..cluster.first_stroke + cluster.strokes {
+            if !buffers.is_drawn(number) {
+                continue;
+            }
+            drawn += 1;
+            let stroke = buffers.stroke_list[number as usize];
+            let row = buffers.ranks.row(stroke.rank);
+            if !is_selected[row as usize] {
+                continue;
+            }
+            if stroke.is_whole_path() {
+                self.split.push(PathPart::of_whole(row, stroke));
+                self.split_strokes.push(number);
+            } else {
+                self.split_several.push(row);
+            }
+        }
+        let selected = self.split.len() - first + self.split_several.len() - first_several;
+        if drawn > 0 && selected == drawn {
+            self.whole.push(index);
+            self.split.truncate(first);
+            self.split_strokes.truncate(first);
+            self.split_several.truncate(first_several);
+        }
+    }
+
+    /// Adds the parts and strokes of the paths of several strokes to the others.
+    fn join_several(&mut self, scene: &Scene, buffers: &SceneBuffers, strokes: &PathStrokes) {
+        let mut known = HashSet::new();
+        self.split_several.retain(|path| known.insert(*path));
+        let parts = parts_of(scene, &buffers.ranks, &self.split_several);
+        self.split.extend(parts);
+        let strokes = self
+            .split_several
+            .iter()
+            .flat_map(|&path| strokes.strokes(path));
+        let drawn = strokes.copied().filter(|stroke| buffers.is_drawn(*stroke));
+        self.split_strokes.extend(drawn);
     }
 }
 
@@ -111,15 +138,15 @@ pub(crate) fn begin(
             *is_selected = true;
         }
     }
-    let selection = Selection::of(buffers, &is_selected);
+    let mut selection = Selection::of(buffers, &is_selected);
     if !uploaded.multi_stroke_paths.is_empty() {
         // Later it would find the strokes of the gesture, too.
         let rows = scene.row_count();
         let path_strokes = &mut uploaded.path_strokes;
-        path_strokes.get_or_insert_with(|| PathStrokes::of(buffers, rows));
+        let strokes = path_strokes.get_or_insert_with(|| PathStrokes::of(buffers, rows));
+        selection.join_several(scene, buffers, strokes);
     }
-    let parts = parts_of(scene, &buffers.ranks, &selection.split_paths);
-    let packed = Packed::of_sorted(scene, &parts, uploaded.packing.exact());
+    let packed = Packed::of_sorted(scene, &selection.split, uploaded.packing.exact());
     let [clusters, strokes] = [buffers.cluster_list.len(), buffers.stroke_list.len()];
     let point_buffers = buffers.point_buffers.len();
     effect.moved_bytes += PointFormat::Exact.bytes(packed.exact_m.len() as u32);

@@ -158,7 +158,12 @@ impl PackedTask {
     /// Packs parts: clusters of rounded and of exact points.
     fn of(scene: &Scene, parts: &[PathPart], packing: Packing) -> [Self; 2] {
         let (mut packed, mut exact) = (Self::default(), Self::default());
+        // Paths of a cluster lie anywhere in memory.
+        let geometry = scene.layout().paths.geometry();
+        let prefetch = |part: &PathPart| geometry.prefetch(part.path as usize);
+        let mut ahead = parts.chunks(CLUSTER_STROKES as usize).skip(1);
         for parts in parts.chunks(CLUSTER_STROKES as usize) {
+            ahead.next().into_iter().flatten().for_each(prefetch);
             let points = parts.iter().flat_map(|part| part.points(scene.layout()));
             let Some(bounds) = Bounds::of_points(points) else {
                 continue;

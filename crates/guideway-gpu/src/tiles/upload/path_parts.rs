@@ -2,12 +2,19 @@
 
 use bytemuck::Zeroable;
 use guideway_layout::{Layout, RunPoints};
+use guideway_scene::Scene;
 use guideway_scene::density::open_ends;
 use guideway_spline::Point;
+use rayon::prelude::*;
 
 use super::cluster::ClusterOrigin;
+use super::concatenated::concatenated;
+use super::draw_ranks::DrawRanks;
 use crate::tiles::constants::{PATH_END, PATH_START, SEGMENTS_BIT, STROKE_SEGMENTS, WHOLE_PATH};
 use crate::tiles::layouts::Stroke;
+
+/// Paths that one task cuts into parts.
+const TASK_PATHS: usize = 1 << 11;
 
 /// A part of a run of a path.
 #[derive(Clone, Copy, Zeroable)]
@@ -46,6 +53,18 @@ impl PathPart {
         if let ([start, ..], Some(_)) = (&mut *parts, open_ends(path_ref)) {
             start.flags |= PATH_START;
             parts[parts.len() - 1].flags |= PATH_END;
+        }
+    }
+
+    /// The part of a stroke that is a whole path.
+    pub(crate) fn of_whole(path: u32, stroke: Stroke) -> Self {
+        Self {
+            path,
+            rank: stroke.rank,
+            run: 0,
+            first_point: 0,
+            segments: stroke.segments(),
+            flags: stroke.extent & (WHOLE_PATH | PATH_START | PATH_END),
         }
     }
 
@@ -94,4 +113,19 @@ impl PathPart {
         let points = first..first + self.segments as usize + 3;
         points.filter_map(move |index| Some(run.as_ref()?.get(index)))
     }
+}
+
+/// The parts of some paths, in their order. All threads share the work.
+pub(crate) fn parts_of(scene: &Scene, ranks: &DrawRanks, paths: &[u32]) -> Vec<PathPart> {
+    let tasks = paths.par_chunks(TASK_PATHS).map(|paths| {
+        let mut parts = Vec::with_capacity(paths.len());
+        for &path in paths {
+            if let Some(rank) = ranks.rank(path) {
+                PathPart::of_path(scene.layout(), path, rank, &mut parts);
+            }
+        }
+        parts
+    });
+    let parts = tasks.collect::<Vec<_>>();
+    concatenated(&parts.iter().map(Vec::as_slice).collect::<Vec<_>>(), 0)
 }

@@ -7,12 +7,10 @@ use guideway_scene::{RenderError, Rgba, Scene};
 use rayon::prelude::*;
 use wgpu::BufferUsages;
 
-use super::concatenated::concatenated;
 use super::draw_ranks::DrawRanks;
 use super::exact_points::ExactPoints;
 use super::hidden_strokes::HiddenStrokes;
 use super::pack::{Packed, device_color, path_style};
-use super::path_parts::PathPart;
 use super::point_buffer::{PointBuffer, ViewDistance, buffer_ranges};
 use crate::device::{DeviceBuffer, Gpu, Memory, Patcher};
 use crate::tiles::device_context::{DeviceContext, device_error};
@@ -21,6 +19,9 @@ use crate::tiles::options::NAME;
 
 /// Least capacity of a point buffer for edited paths, in points.
 const MIN_EDIT_POINTS: u32 = 1 << 14;
+
+/// Part of the strokes and clusters that there is room for behind them.
+const SPARE_PART: usize = 8;
 
 /// Buffers grow in steps of this size.
 const SPARE_STEP_BYTES: u64 = 1 << 12;
@@ -32,7 +33,7 @@ const COUNTERS: &str = "the list of visible clusters";
 /// Clusters whose paths one task counts.
 const TASK_CLUSTERS: usize = 256;
 
-/// Paths that one task cuts into parts.
+/// Paths whose styles one task looks up.
 const TASK_PATHS: usize = 1 << 11;
 
 /// Buffers of a scene.
@@ -73,14 +74,29 @@ impl SceneBuffers {
         check_binding(gpu, "the styles", size_of_val(style_list.as_slice()) as u64)?;
         let point_buffers = upload_points(gpu, memory, &mut packed, 0)?;
         drop((packed.rounded, packed.exact_m));
+        // A gesture needs more strokes and clusters: copying larger buffers takes longer than that.
+        let [spare_strokes, spare_clusters] =
+            [strokes, packed.clusters.len()].map(|len| len / SPARE_PART);
+        packed.clusters.reserve_exact(spare_clusters);
+        let cluster_bytes: &[u8] = bytemuck::cast_slice(&packed.clusters);
+        let stroke_bytes = packed.strokes.bytes_of(0..strokes);
+        let least = |len: usize, size: usize| ((len * size) as u64).min(gpu.max_binding_bytes());
         let mut buffers = Self {
             point_buffers,
             exact_points: None,
-            strokes: memory.upload_parts("the strokes", &packed.strokes.bytes_of(0..strokes))?,
-            clusters: memory.upload("the clusters", &packed.clusters)?,
+            strokes: memory.upload_parts(
+                "the strokes",
+                &stroke_bytes,
+                least(strokes + spare_strokes, size_of::<Stroke>()),
+            )?,
+            clusters: memory.upload_parts(
+                "the clusters",
+                &[cluster_bytes],
+                least(packed.clusters.len() + spare_clusters, size_of::<Cluster>()),
+            )?,
             styles: memory.upload("the styles", &style_list)?,
-            counters: counters(memory, packed.clusters.len())?,
-            stroke_list: packed.strokes.joined(),
+            counters: counters(memory, packed.clusters.len() + spare_clusters)?,
+            stroke_list: packed.strokes.joined(spare_strokes),
             cluster_list: packed.clusters,
             hidden: HiddenStrokes::default(),
             whole_paths: Vec::new(),
@@ -308,8 +324,10 @@ fn upload_points(
         };
         let (what, points) = ("the control points", first as usize..end as usize);
         let points = match format {
-            PointFormat::Rounded => memory.upload_parts(what, &packed.rounded.bytes_of(points))?,
-            PointFormat::Exact => memory.upload_parts(what, &packed.exact_m.bytes_of(points))?,
+            PointFormat::Rounded => {
+                memory.upload_parts(what, &packed.rounded.bytes_of(points), 0)?
+            }
+            PointFormat::Exact => memory.upload_parts(what, &packed.exact_m.bytes_of(points), 0)?,
         };
         let range = range.start + first_cluster..range.end + first_cluster;
         let mut buffer = PointBuffer::new(memory, points, format, range, distance)?;
@@ -334,21 +352,6 @@ fn grow_to(
     check_binding(gpu, what, needed)?;
     let with_spare = (needed + needed / 4).next_multiple_of(SPARE_STEP_BYTES);
     memory.grow(what, buffer, with_spare.min(gpu.max_binding_bytes()))
-}
-
-/// The parts of some paths, in their order. All threads share the work.
-pub(crate) fn parts_of(scene: &Scene, ranks: &DrawRanks, paths: &[u32]) -> Vec<PathPart> {
-    let tasks = paths.par_chunks(TASK_PATHS).map(|paths| {
-        let mut parts = Vec::with_capacity(paths.len());
-        for &path in paths {
-            if let Some(rank) = ranks.rank(path) {
-                PathPart::of_path(scene.layout(), path, rank, &mut parts);
-            }
-        }
-        parts
-    });
-    let parts = tasks.collect::<Vec<_>>();
-    concatenated(&parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }
 
 /// The style of each rank; a single one if all paths look alike.
