@@ -3,11 +3,24 @@
 use std::sync::Arc;
 
 use guideway_spline::Affine;
+use rayon::prelude::*;
 
 use super::table::{NONE, Paths};
 use crate::optional_column::{column_for, set};
 use crate::row_visits::for_each_row;
 use crate::{Direction, Geometry, OwnStyle, TypeEntries, WrittenCurve, WrittenCurves};
+
+/// Styles up to which one thread sets them.
+const FEW_STYLES: usize = 1 << 12;
+
+/// Returns `true` if any of some styles has a property, by all threads if there are many.
+fn any(styles: &[(u32, OwnStyle)], has: impl Fn(&OwnStyle) -> bool + Sync) -> bool {
+    let of_some = |styles: &[(u32, OwnStyle)]| styles.iter().any(|(_, style)| has(style));
+    match styles.len() {
+        0..=FEW_STYLES => of_some(styles),
+        _ => styles.par_chunks(FEW_STYLES).any(of_some),
+    }
+}
 
 impl Paths {
     /// States that the rows follow a Hilbert curve, until rows are appended or selected.
@@ -165,16 +178,27 @@ impl Paths {
     /// When a path is not below [`Self::len`].
     pub fn set_own_styles(&mut self, styles: &[(u32, OwnStyle)]) {
         let (rows, row) = (self.len(), |style: &(u32, OwnStyle)| style.0);
-        let has_width = styles.iter().any(|(_, style)| style.width_m.is_some());
-        if let Some(column) = column_for(&mut self.width_m, rows, f32::NAN, has_width) {
-            for_each_row(column, styles, &row, &|width_m, (_, style)| {
-                *width_m = style.width_m.unwrap_or(f32::NAN);
-            });
-        }
-        let color = |style: &OwnStyle| style.color_rgba.unwrap_or(0);
-        let has_color = styles.iter().any(|(_, style)| color(style) != 0);
-        if let Some(column) = column_for(&mut self.color_rgba, rows, 0, has_color) {
-            for_each_row(column, styles, &row, &|to, (_, style)| *to = color(style));
+        let (width_m, color_rgba) = (&mut self.width_m, &mut self.color_rgba);
+        let mut set_widths = || {
+            let has_width = any(styles, |style| style.width_m.is_some());
+            if let Some(column) = column_for(width_m, rows, f32::NAN, has_width) {
+                for_each_row(column, styles, &row, &|width_m, (_, style)| {
+                    *width_m = style.width_m.unwrap_or(f32::NAN);
+                });
+            }
+        };
+        let mut set_colors = || {
+            let color = |style: &OwnStyle| style.color_rgba.unwrap_or(0);
+            let has_color = any(styles, |style| color(style) != 0);
+            if let Some(column) = column_for(color_rgba, rows, 0, has_color) {
+                for_each_row(column, styles, &row, &|to, (_, style)| *to = color(style));
+            }
+        };
+        if styles.len() > FEW_STYLES {
+            rayon::join(set_widths, set_colors);
+        } else {
+            set_widths();
+            set_colors();
         }
     }
 
