@@ -40,6 +40,7 @@ impl EmbeddedFont {
         self.font.get_or_init(parsed).as_ref()
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     fn draws(&self, c: char) -> bool {
         self.font().is_some_and(|font| font.draws(c))
     }
