@@ -147,10 +147,11 @@ impl ShownGroups {
             for field in &self.fields {
                 self.show_field(ui, field, entry, actions);
             }
+        });
+        ui.horizontal_wrapped(|ui| {
             let (meaning, members) = &self.members;
             ui.label(*meaning);
-            ui.add(Label::new(members).wrap());
-            ui.end_row();
+            ui.label(members);
         });
     }
 
