@@ -93,6 +93,21 @@ pub(crate) enum Action {
     SaveAndLeave,
 }
 
+impl Action {
+    /// The edit of a name or another field; `renamed_type` is the vehicle type that it gives the
+    /// name `text`, if any.
+    pub(crate) fn of_field(edit: EditTask, renamed_type: Option<String>, text: &str) -> Self {
+        match renamed_type {
+            Some(old) => Self::RenameVehicleType {
+                edit,
+                old,
+                new: text.trim().to_owned(),
+            },
+            None => Self::Edit(edit),
+        }
+    }
+}
+
 /// The object that a dialog creates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum GroupRequest {

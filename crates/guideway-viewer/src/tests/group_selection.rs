@@ -63,20 +63,6 @@ fn highlighted(window: &mut TestWindow) -> Option<(usize, usize)> {
     Some((lines.len(), members.symbols.len()))
 }
 
-/// Replaces the text of the field with this value, and confirms it.
-fn type_over(window: &mut TestWindow, shown: &str, text: &str) {
-    let field = By::new().role(Role::TextInput).value(shown);
-    let mut fields = window.harness.get_all(field);
-    fields.next().expect("it is shown").focus();
-    drop(fields);
-    window.harness.run_steps(2);
-    window.key(CTRL, Key::A);
-    window.harness.event(Event::Text(text.into()));
-    window.harness.run_steps(2);
-    window.key(NONE, Key::Enter);
-    window.harness.run_steps(2);
-}
-
 fn properties(window: &mut TestWindow) {
     window.app().side.open(SideTab::Properties);
     window.harness.run_steps(3);
@@ -125,22 +111,22 @@ fn properties_of_levels_are_typed_with_units() {
     let mut window = window();
     click(&mut window, "upper");
     properties(&mut window);
-    type_over(&mut window, "upper", "loft");
-    type_over(&mut window, "", "The loft");
+    window.type_over("upper", "loft");
+    window.type_over("", "The loft");
     let heights: Vec<_> = window
         .harness
         .get_all(By::new().role(Role::TextInput).value(""))
         .collect();
     assert_eq!(heights.len(), 1);
     drop(heights);
-    type_over(&mut window, "", "13 ft");
+    window.type_over("", "13 ft");
     let level = &window.document().layout().levels[1];
     assert_eq!(
         (&*level.id, level.name.as_deref()),
         ("loft", Some("The loft"))
     );
     assert!((level.elevation_m.unwrap() - 3.9624).abs() < 1e-9);
-    type_over(&mut window, "loft", "hall");
+    window.type_over("loft", "hall");
     assert!(has_notice(window.app(), "hall"), "the name is taken");
     assert_eq!(window.document().layout().levels[1].id, "loft");
     assert!(window.harness.query_by_label("1 path, 2 nodes").is_some());
@@ -157,7 +143,7 @@ fn properties_of_several_types_are_set_at_once() {
     click(&mut window, "tug");
     properties(&mut window);
     // The first empty field is that of the greatest speed.
-    type_over(&mut window, "", "3.6 km/h");
+    window.type_over("", "3.6 km/h");
     let speed = |window: &mut TestWindow, name: &str| {
         let types = &window.document().layout().vehicle_types;
         let known = types.iter().find(|known| known.id == name)?;
@@ -168,7 +154,7 @@ fn properties_of_several_types_are_set_at_once() {
     window.harness.run_steps(3);
     click_with(&mut window, "fork", Modifiers::SHIFT);
     properties(&mut window);
-    type_over(&mut window, "", "1,5");
+    window.type_over("", "1,5");
     assert_eq!(speed(&mut window, "tug"), Some(1.5));
     assert_eq!(speed(&mut window, "fork"), Some(1.5));
     window.key(CTRL, Key::Z);
@@ -184,7 +170,7 @@ fn a_type_that_is_renamed_in_its_field_is_renamed_for_new_paths_too() {
     window.app().tools.template.vehicle_types = vec![("tug".into(), Some(2.0))];
     click(&mut window, "tug");
     properties(&mut window);
-    type_over(&mut window, "tug", "tugger");
+    window.type_over("tug", "tugger");
     let paths = window.document().layout().paths.vehicle_types();
     assert!(paths.of(0).eq(["fork", "tugger"]));
     let template = &window.app().tools.template;

@@ -7,29 +7,11 @@ use guideway_document::Element;
 use guideway_layout::Value;
 
 use super::services::lanes;
-use super::test_window::{TestWindow, has_notice};
+use super::test_window::{TestWindow, field, has_notice};
 use crate::app::App;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
-
-/// The text field with this value.
-fn field(value: &str) -> By<'_> {
-    By::new().role(Role::TextInput).value(value)
-}
-
-/// Replaces the text of the first field with this value, and confirms it.
-fn type_over(window: &mut TestWindow, shown: &str, text: &str) {
-    let mut fields = window.harness.get_all(field(shown));
-    fields.next().expect("it is shown").focus();
-    drop(fields);
-    window.harness.run_steps(2);
-    window.key(CTRL, Key::A);
-    window.harness.event(Event::Text(text.into()));
-    window.harness.run_steps(2);
-    window.key(NONE, Key::Enter);
-    window.harness.run_steps(2);
-}
 
 /// Types into the field with this value, without confirming it.
 fn begin_typing(window: &mut TestWindow, shown: &str, text: &str) {
@@ -60,12 +42,12 @@ fn a_property_of_several_paths_is_set_at_once_and_undone() {
     let mut window = TestWindow::showing(lanes(3));
     let at = window.at(5.0, 2.0);
     window.click(at);
-    type_over(&mut window, "0.5", "2,5");
+    window.type_over("0.5", "2,5");
     assert_eq!(speed(&mut window, 1), Some(2.5));
     assert_eq!(speed(&mut window, 2), Some(1.0));
     window.key(CTRL, Key::A);
     window.harness.run_steps(2);
-    type_over(&mut window, "", "4");
+    window.type_over("", "4");
     let speeds = [0, 1, 2].map(|row| speed(&mut window, row));
     assert_eq!(speeds, [Some(4.0); 3]);
     window.key(CTRL, Key::Z);
@@ -79,7 +61,7 @@ fn wrong_text_is_refused_and_escape_takes_a_text_back() {
     let mut window = TestWindow::showing(lanes(3));
     let at = window.at(5.0, 2.0);
     window.click(at);
-    type_over(&mut window, "0.5", "fast");
+    window.type_over("0.5", "fast");
     assert!(has_notice(window.app(), "fast is no number"));
     assert_eq!(speed(&mut window, 1), Some(0.5));
     window.harness.get(field("0.5")).focus();
@@ -129,10 +111,10 @@ fn node_is_selected_renamed_moved_and_deleted_with_its_paths() {
     let name = Element::Node(node)
         .id(window.document().layout())
         .to_owned();
-    type_over(&mut window, &name, "dock");
+    window.type_over(&name, "dock");
     assert_eq!(window.document().layout().nodes.id(node), "dock");
     // A name that is taken is refused.
-    type_over(&mut window, "dock", "n0 0");
+    window.type_over("dock", "n0 0");
     assert!(has_notice(window.app(), "n0 0"));
     // The path follows.
     let to = window.at(12.0, 3.0);
@@ -225,12 +207,12 @@ fn nodes_of_a_station_are_typed_by_name() {
     window.harness.run_steps(3);
     let nodes = |window: &mut TestWindow| window.document().layout().stations.nodes(0).to_vec();
     let first = window.document().layout().nodes.id(1).to_owned();
-    type_over(&mut window, &first, "n1 0, n9");
+    window.type_over(&first, "n1 0, n9");
     assert!(has_notice(window.app(), "no node is called `n9`"));
     assert_eq!(nodes(&mut window), [1]);
-    type_over(&mut window, &first, "n1 0, n2 10");
+    window.type_over(&first, "n1 0, n2 10");
     assert_eq!(nodes(&mut window).len(), 2);
-    type_over(&mut window, "n1 0, n2 10", " ");
+    window.type_over("n1 0, n2 10", " ");
     assert!(nodes(&mut window).is_empty());
     assert_eq!(window.document().station_position_m(0), Some(at_m));
     window.key(CTRL, Key::Z);

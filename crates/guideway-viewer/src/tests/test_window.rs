@@ -4,10 +4,12 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{
     Context, Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2,
 };
 use egui_kittest::Harness;
+use egui_kittest::kittest::{By, Queryable};
 use guideway_document::Document;
 use guideway_spline::Point;
 
@@ -239,6 +241,14 @@ impl TestWindow {
         self.harness.run_steps(2);
     }
 
+    /// Replaces the text of the first field with this value, and confirms it.
+    pub(super) fn type_over(&mut self, shown: &str, text: &str) {
+        let mut fields = self.harness.get_all(field(shown));
+        fields.next().expect("it is shown").focus();
+        drop(fields);
+        self.answer(text);
+    }
+
     pub(super) fn key(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.harness.step();
@@ -257,6 +267,11 @@ impl TestWindow {
         });
         self.harness.step();
     }
+}
+
+/// The text field with this value.
+pub(super) fn field(value: &str) -> By<'_> {
+    By::new().role(Role::TextInput).value(value)
 }
 
 /// Returns `true` if a notice contains this text.

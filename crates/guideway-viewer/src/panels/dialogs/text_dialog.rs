@@ -71,14 +71,7 @@ impl TextDialog {
                 let TextQuestion {
                     text, renamed_type, ..
                 } = self.open.take()?.question;
-                Some(match renamed_type {
-                    Some(old) => Action::RenameVehicleType {
-                        edit,
-                        old,
-                        new: text.trim().to_owned(),
-                    },
-                    None => Action::Edit(edit),
-                })
+                Some(Action::of_field(edit, renamed_type, &text))
             }
             Err(error) => {
                 (open.error, open.wants_focus) = (Some(error), true);

@@ -70,14 +70,7 @@ impl Draft {
         }
         let renamed = self.target.vehicle_type().map(str::to_owned);
         let edit = self.target.edit(&self.text)?;
-        Ok(Some(match renamed {
-            Some(old) => Action::RenameVehicleType {
-                edit,
-                old,
-                new: self.text.trim().to_owned(),
-            },
-            None => Action::Edit(edit),
-        }))
+        Ok(Some(Action::of_field(edit, renamed, &self.text)))
     }
 }
 

@@ -1,13 +1,15 @@
 //! The fields in which a user types: the widget of one, and the text that is being typed.
 
-use eframe::egui::{TextEdit, Ui};
+use eframe::egui::{Label, TextEdit, Ui};
+use guideway_layout::Property;
 
 use super::draft::{Draft, Target};
-use super::field::{Common, FieldKind};
+use super::field::{Common, Field, FieldKind};
 use super::pickers;
 use crate::action::Action;
 use crate::editing::EditTask;
-use crate::language::t;
+use crate::language::{t, translated};
+use crate::units::shown_unit;
 
 /// Least width of the names, in points.
 const NAME_WIDTH: f32 = 130.0;
@@ -131,4 +133,19 @@ impl Entry {
 /// Width of the names beside the fields, in points.
 pub(super) fn name_width(ui: &Ui) -> f32 {
     (0.5 * ui.available_width()).clamp(NAME_WIDTH, MAX_NAME_WIDTH)
+}
+
+/// Shows the name of a field with its unit, and its meaning under the pointer.
+pub(super) fn show_name(ui: &mut Ui, field: &Field) {
+    let name = match field.unit {
+        Some(unit) => format!("{} ({})", field.name, shown_unit(unit)),
+        None => field.name.clone(),
+    };
+    let label = ui.add(Label::new(&name).truncate());
+    if label.contains_pointer() {
+        let known = Property::named(&field.name);
+        label.on_hover_text(translated(
+            known.map_or(&*name, |property| property.meaning),
+        ));
+    }
 }

@@ -3,16 +3,15 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use eframe::egui::{Grid, Label, Ui};
+use eframe::egui::{Grid, Ui};
 use guideway_document::{Document, Group};
 use guideway_layout::{Attributes, ElementKind, Level, PROPERTIES, Property, Value};
 
 use super::draft::{Owners, Subject, Target};
-use super::entry::{Entry, name_width};
+use super::entry::{Entry, name_width, show_name};
 use super::field::{Common, Field, common, empty_field, kind_of};
-
 use crate::action::Action;
-use crate::language::{counted, t, translated};
+use crate::language::{counted, t};
 use crate::selection::counts;
 use crate::units::shown_unit;
 
@@ -156,14 +155,7 @@ impl ShownGroups {
     }
 
     fn show_field(&self, ui: &mut Ui, field: &Field, entry: &mut Entry, actions: &mut Vec<Action>) {
-        let name = match field.unit {
-            Some(unit) => format!("{} ({})", field.name, shown_unit(unit)),
-            None => field.name.clone(),
-        };
-        let label = ui.add(Label::new(&name).truncate());
-        if let Some(property) = Property::named(&field.name) {
-            label.on_hover_text(translated(property.meaning));
-        }
+        show_name(ui, field);
         let target = self.target(Subject::Property {
             name: field.name.clone(),
             kind: field.kind,

@@ -23,14 +23,14 @@ pub(super) use self::field::{FieldKind, kind_of};
 pub(super) use self::typed_value::TypedValue;
 
 use self::draft::{Subject, Target};
-use self::entry::{Entry, name_width};
+use self::entry::{Entry, name_width, show_name};
 use self::field::{Common, Field, MAX_COMPARED};
 use self::groups::ShownGroups;
 use self::shown::Shown;
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
 use crate::language::{say, t, translated};
-use crate::units::{Units, shown_unit, units};
+use crate::units::{Units, units};
 
 /// The section: what is shown, and the text that is being typed.
 #[derive(Default)]
@@ -212,17 +212,7 @@ impl PropertiesPanel {
 
     /// One row for all vehicle types, and one for each with a value of its own.
     fn show_field(&mut self, ui: &mut Ui, shown: &Shown, field: &Field, actions: &mut Vec<Action>) {
-        let name = match field.unit {
-            Some(unit) => format!("{} ({})", field.name, shown_unit(unit)),
-            None => field.name.clone(),
-        };
-        let label = ui.add(Label::new(&name).truncate());
-        if label.contains_pointer() {
-            let known = Property::named(&field.name);
-            label.on_hover_text(translated(
-                known.map_or(&*name, |property| property.meaning),
-            ));
-        }
+        show_name(ui, field);
         ui.horizontal(|ui| {
             self.value_field(ui, shown, field, None, actions);
             self.add_type(ui, shown, field);
