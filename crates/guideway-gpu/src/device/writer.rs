@@ -39,7 +39,7 @@ impl Gpu {
     }
 }
 
-/// Parts laid out back to back.
+/// Parts back to back.
 struct Joined<'a> {
     parts: &'a [&'a [u8]],
     /// End of each part in bytes.

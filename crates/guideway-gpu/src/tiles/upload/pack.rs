@@ -124,10 +124,11 @@ impl Packed {
     }
 
     /// Joins clusters with their strokes and points.
-    fn joined(mut tasks: Vec<PackedTask>) -> Self {
+    fn joined(tasks: Vec<PackedTask>) -> Self {
         let (mut first_stroke, mut first_points) = (0, [0, 0]);
         let mut clusters = Vec::with_capacity(tasks.iter().map(|task| task.clusters.len()).sum());
-        for task in &tasks {
+        let (mut rounded, mut exact_m, mut strokes) = (Vec::new(), Vec::new(), Vec::new());
+        for task in tasks {
             clusters.extend(task.clusters.iter().map(|cluster| Cluster {
                 first_stroke: cluster.first_stroke + first_stroke,
                 first_point: cluster.first_point + first_points[cluster.format() as usize],
@@ -136,19 +137,14 @@ impl Packed {
             first_stroke += task.strokes.len() as u32;
             first_points[PointFormat::Rounded as usize] += task.rounded.len() as u32;
             first_points[PointFormat::Exact as usize] += task.exact_m.len() as u32;
+            rounded.push(task.rounded);
+            exact_m.push(task.exact_m);
+            strokes.push(task.strokes);
         }
-        let points = tasks.iter_mut();
-        let points = points.map(|task| {
-            (
-                std::mem::take(&mut task.rounded),
-                std::mem::take(&mut task.exact_m),
-            )
-        });
-        let (rounded, exact_m): (Vec<_>, Vec<_>) = points.unzip();
         Self {
             rounded: Pieces::new(rounded.into_iter()),
             exact_m: Pieces::new(exact_m.into_iter()),
-            strokes: Pieces::new(tasks.into_iter().map(|task| task.strokes)),
+            strokes: Pieces::new(strokes.into_iter()),
             clusters,
         }
     }
