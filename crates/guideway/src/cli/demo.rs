@@ -54,10 +54,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "Name another one, such as `guideway demo -o /tmp/demo`",
         )
     })?;
-    save(&folder.join("site.lif.json"), packed::site()?.as_bytes())?;
-    let faulty = faulty_site()?;
+    let site = packed::site()?;
+    save(&folder.join("site.lif.json"), site.as_bytes())?;
+    let faulty = faulty_site(&site)?;
     save(&folder.join("faulty.lif.json"), &faulty)?;
-    let (site, rendered) = draw_site(folder, out)?;
+    let (site, rendered) = draw_site(&site, folder, out)?;
     let crowd = draw_crowd(folder, args.paths, out)?;
     let (findings, said) = draw_findings(folder, &faulty, out)?;
     let made = [site, crowd, findings];
@@ -85,20 +86,16 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     Ok(Exit::Clean)
 }
 
-/// The layout of the example site.
-pub(super) fn read_site() -> Result<Layout, UserError> {
-    let site = packed::site()?;
-    Ok(read_bytes(
-        SITE_NAME,
-        site.as_bytes(),
-        &ReadOptions::default(),
-    )?)
+/// The layout in the file of the example site.
+pub(super) fn read_site(site: &str) -> Result<Layout, UserError> {
+    let options = ReadOptions::default();
+    Ok(read_bytes(SITE_NAME, site.as_bytes(), &options)?)
 }
 
 /// The site with stations, arrows, names and speeds.
-fn draw_site(folder: &Path, out: &Output) -> Result<(Made, Rendered), UserError> {
+fn draw_site(site: &str, folder: &Path, out: &Output) -> Result<(Made, Rendered), UserError> {
     let progress = out.progress("drawing the site");
-    let layout = read_site()?;
+    let layout = read_site(site)?;
     let options = SceneOptions {
         color_by: Some(ColorBy {
             column: "maxSpeed".into(),
@@ -190,9 +187,9 @@ fn draw_findings(folder: &Path, faulty: &[u8], out: &Output) -> Result<(Made, St
 }
 
 /// The example site with faults as they occur in practice.
-fn faulty_site() -> Result<Vec<u8>, UserError> {
+fn faulty_site(site: &str) -> Result<Vec<u8>, UserError> {
     let fail = |error: &serde_json::Error| json_error(error, "Report this as a bug of the demo");
-    let mut site: Value = serde_json::from_str(&packed::site()?).map_err(|error| fail(&error))?;
+    let mut site: Value = serde_json::from_str(site).map_err(|error| fail(&error))?;
     let hall = &mut site["layouts"][0];
     // A node that was moved without its edges, and edges to a node that was renamed.
     set(hall, "nodes", "nodeId", "dock-3-009", |node| {

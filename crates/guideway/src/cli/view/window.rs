@@ -16,7 +16,7 @@ use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::Input;
 use crate::cli::output::Output;
 use crate::cli::start::{self, GlobalOptions};
-use crate::cli::{demo, floor_plan, output, process};
+use crate::cli::{demo, floor_plan, output, packed, process};
 
 pub use crate::cli::layout_output::{target_to_save, write_into};
 pub use crate::cli::limits::read_options;
@@ -117,7 +117,7 @@ pub fn read_floor_plan(plan: &str) -> Result<FloorPlan, UserError> {
 /// # Errors
 /// Never, unless the program was built from a damaged file.
 pub fn example_site() -> Result<Layout, UserError> {
-    demo::read_site()
+    demo::read_site(&packed::site()?)
 }
 
 /// Saves a file atomically.
