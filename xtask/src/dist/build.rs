@@ -61,7 +61,7 @@ pub const WINDOW: [&str; 6] = [
 ];
 
 /// Joins functions of the same instructions, of which generic code has many: a fortieth of the
-/// program. No code compares functions by their addresses.
+/// program. Nothing here compares functions by their addresses.
 const FOLDED: &str = "-Clink-arg=-Wl,--icf=all";
 
 /// Flags of the C compiler that leave out what no level of compression in use needs of zstd.
