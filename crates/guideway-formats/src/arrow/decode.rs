@@ -1,20 +1,20 @@
 //! Message decoder: converts messages to record batches and control polygons, after a check of the
 //! declared sizes.
 
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
 use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchOptions, make_array};
-use arrow_ipc::reader::{read_dictionary, read_record_batch};
+use arrow_ipc::reader::read_record_batch;
 use arrow_ipc::{MessageHeader, RecordBatch as IpcBatch};
-use arrow_schema::{ArrowError, DataType, Schema, SchemaRef};
+use arrow_schema::{ArrowError, SchemaRef};
 
 use super::budget::Budget;
 use super::catch_decode_panic::catch_decode_panic;
 use super::container::Message;
 use super::control_polygons::ControlPolygons;
-use super::lossy_texts::{Within, to_texts, with_bytes};
+use super::dictionaries::Dictionaries;
+use super::lossy_texts::{to_texts, with_bytes};
 use super::message_body::{ALIGNMENT, BodyPool};
 use super::problems::damaged;
 use super::schema::coordinate_buffer;
@@ -25,7 +25,7 @@ use crate::input::Input;
 pub(super) struct Decoder<'a> {
     input: &'a Input<'a>,
     schema: SchemaRef,
-    dictionaries: HashMap<i64, ArrayRef>,
+    dictionaries: Dictionaries,
     bodies: BodyPool,
     /// Index of the column of control points.
     points: usize,
@@ -51,7 +51,7 @@ impl<'a> Decoder<'a> {
             coordinates: coordinate_buffer(&schema, points),
             input,
             schema,
-            dictionaries: HashMap::new(),
+            dictionaries: Dictionaries::default(),
             bodies: BodyPool::default(),
             replaced: Vec::new(),
         }
@@ -94,19 +94,12 @@ impl<'a> Decoder<'a> {
                 check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
                 if dictionary.isDelta() {
                     // Each delta copies the whole dictionary.
-                    let known = self.dictionaries.get(&dictionary.id());
-                    budget.charge(known.map_or(0, |d| d.get_buffer_memory_size()) as u64)?;
+                    let known = self.dictionaries.byte_count(dictionary.id());
+                    budget.charge(known as u64)?;
                 }
-                let bytes = body.bytes();
-                let dictionaries = &mut self.dictionaries;
-                let read = read_dictionary(bytes, dictionary, &self.schema, dictionaries, &version);
-                if let Err(error) = read {
-                    let schema = with_bytes(&self.schema, Within::Dictionaries);
-                    read_dictionary(bytes, dictionary, &schema, dictionaries, &version)
-                        .and_then(|()| values_to_texts(dictionary.id(), &self.schema, dictionaries))
-                        .map(|found| self.replaced.extend(found))
-                        .map_err(|_| failed(error))?;
-                }
+                let read =
+                    (self.dictionaries).read(body.bytes(), dictionary, &self.schema, &version);
+                self.replaced.extend(read.map_err(failed)?);
                 Ok(None)
             }
             MessageHeader::RecordBatch => {
@@ -118,12 +111,13 @@ impl<'a> Decoder<'a> {
                 check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
                 let bytes = body.bytes();
                 let read = |schema: SchemaRef| {
-                    read_record_batch(bytes, batch, schema, &self.dictionaries, None, &version)
+                    let dictionaries = self.dictionaries.by_id();
+                    read_record_batch(bytes, batch, schema, dictionaries, None, &version)
                 };
                 let mut replaced = std::mem::take(&mut self.replaced);
                 let batch = match read(self.schema.clone()) {
                     Ok(batch) => batch,
-                    Err(error) => read(with_bytes(&self.schema, Within::Batches).into())
+                    Err(error) => read(with_bytes(&self.schema).into())
                         .and_then(|batch| batch_to_texts(&batch, &self.schema, &mut replaced))
                         .map_err(|_| failed(error))?,
                 };
@@ -160,29 +154,6 @@ impl<'a> Decoder<'a> {
         });
         range.unwrap_or_default()
     }
-}
-
-/// Makes texts of the bytes of a dictionary. Returns the column and the number of its texts that
-/// are not UTF-8.
-fn values_to_texts(
-    id: i64,
-    schema: &Schema,
-    dictionaries: &mut HashMap<i64, ArrayRef>,
-) -> Result<Option<(String, u64)>, ArrowError> {
-    #[expect(
-        deprecated,
-        reason = "the library names dictionaries by numbers, and no other way"
-    )]
-    let fields = schema.fields_with_dict_id(id);
-    let (Some(field), Some(values)) = (fields.first(), dictionaries.get_mut(&id)) else {
-        return Ok(None);
-    };
-    let DataType::Dictionary(_, to) = field.data_type() else {
-        return Ok(None);
-    };
-    let mut count = 0;
-    *values = make_array(to_texts(values.to_data(), to, &mut count)?);
-    Ok(Some((field.name().clone(), count)))
 }
 
 /// Makes texts of the bytes in a batch. Adds the number of texts that are not UTF-8 per column.

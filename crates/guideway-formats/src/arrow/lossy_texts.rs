@@ -9,31 +9,21 @@ use arrow_array::{Array, LargeStringArray, StringArray, StringViewArray, make_ar
 use arrow_data::ArrayData;
 use arrow_schema::{ArrowError, DataType, Field, FieldRef, Schema, UnionFields};
 
-/// Types within others that are bytes.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Within {
-    /// All but the values of dictionaries, which come in messages of their own.
-    Batches,
-    /// The values of dictionaries too.
-    Dictionaries,
-}
-
-/// Returns a schema with bytes in place of texts.
-pub(super) fn with_bytes(schema: &Schema, within: Within) -> Schema {
-    let fields = schema
-        .fields()
-        .iter()
-        .map(|field| byte_field(field, within));
+/// Returns a schema with bytes in place of texts, but for those of dictionaries, which come in
+/// messages of their own.
+pub(super) fn with_bytes(schema: &Schema) -> Schema {
+    let fields = schema.fields().iter().map(byte_field);
     Schema::new_with_metadata(fields.collect::<Vec<_>>(), schema.metadata().clone())
 }
 
-fn byte_field(field: &FieldRef, within: Within) -> FieldRef {
-    let data_type = byte_type(field.data_type(), within);
+fn byte_field(field: &FieldRef) -> FieldRef {
+    let data_type = byte_type(field.data_type());
     Arc::new(Field::clone(field).with_data_type(data_type))
 }
 
-fn byte_type(data_type: &DataType, within: Within) -> DataType {
-    let of = |field: &FieldRef| byte_field(field, within);
+/// Returns a type with bytes in place of texts.
+pub(super) fn byte_type(data_type: &DataType) -> DataType {
+    let of = byte_field;
     match data_type {
         DataType::Utf8 => DataType::Binary,
         DataType::LargeUtf8 => DataType::LargeBinary,
@@ -51,9 +41,6 @@ fn byte_type(data_type: &DataType, within: Within) -> DataType {
         DataType::Union(fields, mode) => {
             let fields = fields.iter().map(|(id, field)| (id, of(field)));
             DataType::Union(fields.collect::<UnionFields>(), *mode)
-        }
-        DataType::Dictionary(keys, values) if within == Within::Dictionaries => {
-            DataType::Dictionary(keys.clone(), byte_type(values, Within::Batches).into())
         }
         other => other.clone(),
     }

@@ -8,7 +8,7 @@
 //! | stage | input | output | file |
 //! |---|---|---|---|
 //! | open | file | schema, ranges and extents of messages | `container`, `extents`, `schema`, `column_names`, `column_types`, `time_zones` |
-//! | decode | messages | record batches, control polygons | `decode`, `message_body`, `lossy_texts`, `control_polygons`, `point_items`, `fault` |
+//! | decode | messages | record batches, control polygons | `decode`, `dictionaries`, `message_body`, `lossy_texts`, `control_polygons`, `point_items`, `fault` |
 //! | sort | record batches | kinds of their rows | `element`, `row_kinds` |
 //! | assemble | control polygons of paths | geometry, drawn and refused rows | `assemble`, `point_store`, `batch`, `numbering` |
 //! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `cell_formatter`, `cell_text`, `cell_times`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
@@ -36,6 +36,7 @@ mod column_types;
 mod container;
 mod control_polygons;
 mod decode;
+mod dictionaries;
 mod element;
 mod elements;
 mod extents;

@@ -8,7 +8,7 @@ use arrow_array::{
     Int64Array, LargeStringArray, ListArray, NullArray, StringArray, StringViewArray, StructArray,
 };
 use arrow_ipc::CompressionType;
-use arrow_ipc::writer::StreamWriter;
+use arrow_ipc::writer::{DictionaryHandling, IpcWriteOptions, StreamWriter};
 use arrow_schema::{DataType, Field};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, RunPoints, Value};
@@ -53,6 +53,52 @@ fn reads_all_batches_of_files_and_streams() {
         layout.paths.get(8).runs().next().expect("a run").get(3),
         Point::new(3.0, 2.0)
     );
+}
+
+/// A stream of batches with a dictionary of texts that grows from one to the next.
+fn grown_dictionary() -> Vec<u8> {
+    let rows: [&[&str]; 3] = [&["a", "W?nde"], &["a", "b"], &["c", "b"]];
+    let mut values: Vec<&str> = Vec::new();
+    let batches = rows.map(|rows| {
+        for row in rows {
+            if !values.contains(row) {
+                values.push(row);
+            }
+        }
+        let key = |row: &&str| values.iter().position(|value| value == row);
+        let keys = rows.iter().map(|row| key(row).map(|key| key as i32));
+        let texts = Arc::new(StringArray::from(values.clone()));
+        let column = DictionaryArray::<Int32Type>::new(keys.collect(), texts);
+        batch(vec![
+            ("name", Arc::new(column)),
+            ("control_points", Arc::new(polygons(2))),
+        ])
+    });
+    let options = IpcWriteOptions::default().with_dictionary_handling(DictionaryHandling::Delta);
+    let schema = batches[0].schema();
+    let stream = StreamWriter::try_new_with_options(Vec::new(), &schema, options);
+    let mut stream = stream.expect("a writer");
+    for batch in &batches {
+        stream.write(batch).expect("a batch");
+    }
+    stream.into_inner().expect("a stream")
+}
+
+#[test]
+fn reads_dictionaries_that_grow() {
+    let mut stream = grown_dictionary();
+    let names = |stream: &[u8]| -> Vec<String> {
+        let layout = read(stream);
+        let column = layout.paths.attributes.get("name").expect("a column");
+        let rows = 0..layout.paths.len();
+        rows.map(|row| column.values.get(row).expect("a text").to_string())
+            .collect()
+    };
+    assert_eq!(names(&stream), ["a", "W?nde", "a", "b", "c", "b"]);
+    // The first texts are not UTF-8, those that come later are.
+    let at = stream.windows(6).position(|bytes| bytes == b"aW?nde");
+    stream[at.expect("the first texts") + 2] = 0xE4;
+    assert_eq!(names(&stream), ["a", "W\u{FFFD}nde", "a", "b", "c", "b"]);
 }
 
 #[test]
