@@ -280,6 +280,17 @@ impl Target {
         out: &mut impl Write,
         progress: &dyn Progress,
     ) -> Result<Losses, WriteProblem> {
+        // One set of writers for all streams.
+        self.write_dyn(layout, out, progress)
+    }
+
+    fn write_dyn(
+        self,
+        layout: &Layout,
+        mut out: &mut dyn Write,
+        progress: &dyn Progress,
+    ) -> Result<Losses, WriteProblem> {
+        let out = &mut out;
         let paths = &WrittenPaths::of(layout, progress);
         let exported = clock::now();
         #[cfg(feature = "lif")]
