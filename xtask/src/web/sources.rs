@@ -9,7 +9,7 @@ use crate::step::command;
 /// The page as the command holds it.
 pub(super) const PAGE: &str = "crates/guideway/page";
 /// Folders and files whose change makes the page stale.
-const SOURCES: [&str; 17] = [
+const SOURCES: [&str; 18] = [
     "Cargo.lock",
     "crates/guideway/src/json.rs",
     "crates/guideway/src/lib.rs",
@@ -22,6 +22,7 @@ const SOURCES: [&str; 17] = [
     "crates/guideway-layout/src",
     "crates/guideway-network/src",
     "crates/guideway-scene/src",
+    "crates/guideway-sequential/src",
     "crates/guideway-spline/src",
     "crates/guideway-web/src",
     "web/build.mjs",
