@@ -39,7 +39,7 @@ export class GuidewayMap {
   private moved = 0;
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    new ResizeObserver(() => this.resize()).observe(canvas);
+    new ResizeObserver(() => this.takeSize() && void this.refresh()).observe(canvas);
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
@@ -76,6 +76,8 @@ export class GuidewayMap {
 
   /** Draws a new picture as soon as the last one is there. */
   async refresh(): Promise<void> {
+    // The observer tells of a new size only once this picture has begun.
+    this.takeSize();
     this.paint();
     this.wants = true;
     if (this.isDrawing || !this.canvas.width || !this.canvas.height) return;
@@ -198,14 +200,15 @@ export class GuidewayMap {
     if (this.view) this.onview(this.view);
   }
 
-  private resize(): void {
+  /** Takes the size that the page gives the canvas; returns `true` if it is another one. */
+  private takeSize(): boolean {
     const { clientWidth, clientHeight } = this.canvas;
     const [width, height] = [clientWidth * this.scale, clientHeight * this.scale].map(Math.round);
-    if (width === this.canvas.width && height === this.canvas.height) return;
+    if (width === this.canvas.width && height === this.canvas.height) return false;
     this.canvas.width = width!;
     this.canvas.height = height!;
     if (this.isFit) this.view = undefined;
-    void this.refresh();
+    return true;
   }
 
   private at(event: MouseEvent): Point {

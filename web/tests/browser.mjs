@@ -87,6 +87,9 @@ async function picturesAreThoseOfTheCommand() {
   const arrow = join(folder, "site.arrow");
   guideway("convert", site, arrow, "--quiet");
   const page = await open(pageUrl);
+  await load(page, arrow);
+  await page.waitForTimeout(300);
+  assert.equal(await page.evaluate(() => guideway.map.drawn), 1, "the first picture is drawn again");
   for (const file of [site, arrow, ...encodedFiles(), ...realFiles()]) {
     await load(page, file);
     const size = { width: 640, height: 400 };
