@@ -2,7 +2,7 @@
 // npm package with the element. Usage: node build.mjs FOLDER PAGE SYMBOLS, a font. The whole page
 // goes to FOLDER/guideway.html, its parts go as gzip to PAGE, from where the command takes them,
 // with the font and the module of the widget for notebooks. The package goes to dist beside this
-// file.
+// file; it alone has the engine of several threads.
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
@@ -29,13 +29,30 @@ async function bundle(entry, options) {
 
 // The worker's engine comes by message, never by address.
 const worker = await bundle("worker.ts", { define: { "import.meta.url": '""' } });
+// The same of the engine of several threads.
+const threadsEngine = {
+  name: "threads-engine",
+  setup({ onResolve }) {
+    onResolve({ filter: /^\.\.\/engine\// }, ({ path, resolveDir }) => {
+      return { path: join(resolveDir, path.replace("../engine/", "../engine-threads/")) };
+    });
+  },
+};
+const workerOfThreads = await bundle("worker-threads.ts", {
+  define: { "import.meta.url": '""' },
+  plugins: [threadsEngine],
+});
 const elementStyle = await readFile(source("element.css"), "utf8");
 /** Modules whose content is a text. */
-const texts = { "worker-source": worker, "element-style": elementStyle };
+const texts = {
+  "worker-source": worker,
+  "worker-threads-source": workerOfThreads,
+  "element-style": elementStyle,
+};
 const textModules = {
   name: "texts",
   setup({ onResolve, onLoad }) {
-    onResolve({ filter: /^(worker-source|element-style)$/ }, ({ path }) => {
+    onResolve({ filter: /^(worker-source|worker-threads-source|element-style)$/ }, ({ path }) => {
       return { path, namespace: "texts" };
     });
     onLoad({ filter: /.*/, namespace: "texts" }, ({ path }) => {
@@ -51,20 +68,24 @@ const page = (await readFile(source("page.html"), "utf8"))
   .replace("/*STYLE*/", () => style)
   .replace("/*SCRIPT*/", () => script);
 
-const engineFile = join(folder, "engine.wasm");
 const optimizer = join(import.meta.dirname, "node_modules/.bin/wasm-opt");
-const from = join(import.meta.dirname, "engine/guideway_web_bg.wasm");
 const wasmFeatures = ["--enable-simd", "--enable-bulk-memory", "--enable-nontrapping-float-to-int"];
 const moreFeatures = ["--enable-sign-ext", "--enable-mutable-globals", "--enable-reference-types"];
-const args = [from, "-o", engineFile, "-O1", "--strip-debug", "--strip-producers"];
 const changed = async (file) => (await stat(file).catch(() => ({ mtimeMs: 0 }))).mtimeMs;
-// It takes half a minute, so only a new engine is optimized.
-if ((await changed(engineFile)) < (await changed(from))) {
-  execFileSync(optimizer, [...args, ...wasmFeatures, ...moreFeatures, "--enable-multivalue"]);
+/** Optimizes what `wasm-bindgen` made. It takes half a minute, so only a new engine is optimized. */
+async function optimized(name, features = []) {
+  const [from, to] = [join(import.meta.dirname, name, "guideway_web_bg.wasm"), join(folder, name)];
+  const args = [from, "-o", `${to}.wasm`, "-O1", "--strip-debug", "--strip-producers"];
+  const all = [...wasmFeatures, ...moreFeatures, "--enable-multivalue", ...features];
+  if ((await changed(`${to}.wasm`)) < (await changed(from))) {
+    execFileSync(optimizer, [...args, ...all]);
+  }
+  return readFile(`${to}.wasm`);
 }
 
 // Without the time of day, so that the same sources give the same bytes.
-const packed = gzipSync(await readFile(engineFile), { level: 9 });
+const packed = gzipSync(await optimized("engine"), { level: 9 });
+const threads = gzipSync(await optimized("engine-threads", ["--enable-threads"]), { level: 9 });
 await mkdir(pageFolder, { recursive: true });
 await writeFile(join(pageFolder, "engine.wasm.gz"), packed);
 const symbols = gzipSync(await readFile(symbolsFile), { level: 9 });
@@ -85,6 +106,7 @@ await rm(dist, { recursive: true, force: true });
 await mkdir(dist);
 await writeFile(join(dist, "guideway.js"), await bundle("package.ts", { plugins, format: "esm" }));
 await writeFile(join(dist, "engine.wasm.gz"), packed);
+await writeFile(join(dist, "engine-threads.wasm.gz"), threads);
 await writeFile(join(dist, "symbols.ttf.gz"), symbols);
 for (const license of ["LICENSE-APACHE", "LICENSE-MIT"]) {
   await copyFile(join(import.meta.dirname, "..", license), join(dist, license));

@@ -9,6 +9,7 @@ import { DARK, GuidewayMap, LIGHT, paintElement, type View } from "./map.js";
 import { Pointer } from "./pointer.js";
 import { Shadow } from "./shadow.js";
 import { t } from "./text.js";
+import { type Threaded, threadCount } from "./threads.js";
 import { Fleet, type Vehicle } from "./vehicles.js";
 
 const SWITCHES = ["arrows", "nodes", "stations", "labels", "grid", "scale-bar", "legend"] as const;
@@ -37,6 +38,10 @@ export class GuidewayView extends Base {
   static symbolsUrl: string | URL = besideModule(
     () => new URL("./symbols.ttf.gz", import.meta.url),
   );
+  /** The address of the engine of several threads, for pages that are isolated; "" for none. */
+  static threadedEngineUrl: string | URL = "";
+  /** The source of its workers, of the npm package. */
+  static threadedWorker = "";
 
   private readonly shadow: Shadow;
   private readonly map: GuidewayMap;
@@ -80,10 +85,19 @@ export class GuidewayView extends Base {
   connectedCallback(): void {
     if (this.engine) return;
     const { engineUrl, symbolsUrl } = GuidewayView;
-    this.engine = new Engine(compiled(String(engineUrl)), { url: String(symbolsUrl) });
+    const engine = () => compiled(String(engineUrl));
+    this.engine = new Engine(engine, { url: String(symbolsUrl) }, GuidewayView.threaded());
     this.engine.onprogress = (share) => this.shadow.advance(share);
     this.dress();
     void this.load();
+  }
+
+  /** The engine of several threads, if this page has one and may share memory. */
+  private static threaded(): Threaded | undefined {
+    const { threadedEngineUrl: url, threadedWorker: worker } = GuidewayView;
+    const count = threadCount();
+    if (!worker || !String(url) || count === 1) return undefined;
+    return { worker, engine: () => compiled(String(url)), count };
   }
 
   disconnectedCallback(): void {
@@ -107,6 +121,11 @@ export class GuidewayView extends Base {
   /** The open layout: its counts, levels and columns. */
   get info(): Info | undefined {
     return this.opened;
+  }
+
+  /** How many threads draw: one, unless the page is isolated from other origins. */
+  get threads(): number {
+    return this.engine?.threadCount ?? 1;
   }
 
   /** The part that is shown, in CSS pixels per meter; assign it to show another one. */

@@ -17,7 +17,7 @@ const LENGTH_ROWS = 50_000;
 const packedEngine = byId("engine").textContent!.trim();
 const shared: Shared | undefined = readShared();
 const symbols = document.getElementById("symbols")?.textContent?.trim();
-const engine = new Engine(packedEngine, symbols ? { packed: symbols } : undefined);
+const engine = new Engine(() => packedEngine, symbols ? { packed: symbols } : undefined);
 const map = new GuidewayMap(byId<HTMLCanvasElement>("map"));
 const panels = new Panels();
 const pointer = new Pointer((...call) => engine.call(...call));

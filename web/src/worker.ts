@@ -58,11 +58,13 @@ function replace(name: string, bytes: Uint8Array): unknown {
   return JSON.parse(next.info());
 }
 
-const calls: Record<string, (...args: never[]) => unknown> = {
+export const calls: Record<string, (...args: never[]) => unknown> = {
   start: async (engine: string | WebAssembly.Module, symbolsHere?: Symbols) => {
     symbols = symbolsHere;
     const source = typeof engine === "string" ? await unpackedText(engine) : engine;
     memory = (await init({ module_or_path: source })).memory;
+    // The threads of an engine share it.
+    return memory.buffer instanceof ArrayBuffer ? undefined : memory;
   },
   open: (name: string, bytes: ArrayBuffer) => replace(name, new Uint8Array(bytes)),
   openPacked: async (name: string, base64: string) =>

@@ -6,7 +6,8 @@ import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { command, folder, guideway, isSame, launch, shots, site } from "./harness.mjs";
+import { command, encodedFiles, folder, guideway, isSame, launch } from "./harness.mjs";
+import { shots, site } from "./harness.mjs";
 
 const pageUrl = pathToFileURL(resolve("target/web/guideway.html")).href;
 const browser = await launch();
@@ -27,24 +28,6 @@ async function load(page, file) {
   const drawn = await page.evaluate(() => guideway.map.drawn);
   await page.setInputFiles("#file", file);
   await page.waitForFunction((before) => guideway.map.drawn > before, drawn);
-}
-
-/** The site of openTCS with names in encodings that the engine asks the browser for. */
-function encodedFiles() {
-  const whole = join(folder, "site.opentcs.xml");
-  guideway("convert", site, whole, "--quiet");
-  const text = readFileSync(whole, "utf8").replace(/^<\?xml.*?\?>/, "");
-  // Letters that the embedded fonts have.
-  const names = { GBK: [0xa7, 0xe1, 0xa7, 0xe5], "windows-1251": [0xef, 0xf3, 0xf2, 0xfc] };
-  return Object.entries(names).map(([encoding, bytes]) => {
-    const head = `<?xml version="1.0" encoding="${encoding}"?>`;
-    const before = /(?<=(?:<(?:point|path|outgoingPath) name|(?:source|destination)Point)=")/;
-    const parts = text.replace(/[^\x00-\x7f]/g, "?").split(before);
-    const named = parts.flatMap((part) => [Buffer.from(part), Buffer.from(bytes)]).slice(0, -1);
-    const file = join(folder, `${encoding}.xml`);
-    writeFileSync(file, Buffer.concat([Buffer.from(head), ...named]));
-    return file;
-  });
 }
 
 /** Real files of the formats: the smaller ones, as the command of tests is not optimized. */

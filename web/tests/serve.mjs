@@ -6,10 +6,20 @@ import { extname, join, normalize } from "node:path";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css" };
 
-/** Serves a folder at a free port; returns the address, which ends with `/`, and `close`. */
-export async function serve(folder) {
+/** Headers of a page that may share memory with its workers. */
+export const ISOLATED = {
+  "cross-origin-opener-policy": "same-origin",
+  "cross-origin-embedder-policy": "require-corp",
+};
+
+/**
+ * Serves a folder at a free port, each file with these headers too; returns the address, which ends
+ * with `/`, and `close`.
+ */
+export async function serve(folder, headers = {}) {
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, "http://localhost");
+    for (const [name, value] of Object.entries(headers)) response.setHeader(name, value);
     const file = join(folder, normalize(decodeURIComponent(pathname)));
     const stat = statSync(file, { throwIfNoEntry: false });
     if (!stat?.isFile()) {

@@ -1,70 +1,12 @@
 //! The calls of JavaScript. An error is thrown as JSON with `code`, `message` and `remedy`.
 
-use std::cell::RefCell;
-use std::io;
-
-use guideway::formats::{Parts, Progress};
 use guideway::layout::UserError;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
+use crate::file::Uint8Array;
 use crate::session::{Drawn, Saved, Session};
-
-#[wasm_bindgen]
-extern "C" {
-    /// The worker defines it.
-    #[wasm_bindgen(js_name = guidewayProgress)]
-    fn guideway_progress(share: f64);
-
-    /// The bytes of a file, in the memory of the worker.
-    pub type Uint8Array;
-
-    #[wasm_bindgen(method, getter)]
-    fn length(this: &Uint8Array) -> usize;
-
-    #[wasm_bindgen(method)]
-    fn subarray(this: &Uint8Array, start: usize, end: usize) -> Uint8Array;
-
-    #[wasm_bindgen(js_namespace = ["Uint8Array", "prototype", "set"], js_name = call)]
-    fn copy(to: &mut [u8], from: &Uint8Array);
-}
-
-thread_local! {
-    /// The file that is being opened: no object of JavaScript goes from thread to thread.
-    static OPENED: RefCell<Option<Uint8Array>> = const { RefCell::new(None) };
-}
-
-/// The parts of the file that is being opened. Memory of an engine never shrinks, so a whole copy
-/// would be there for good.
-struct FileParts {
-    byte_count: usize,
-}
-
-impl Parts for FileParts {
-    fn byte_count(&self) -> usize {
-        self.byte_count
-    }
-
-    fn read(&self, from: usize, to: &mut [u8]) -> io::Result<()> {
-        let end = from.checked_add(to.len());
-        let end = end.filter(|end| *end <= self.byte_count);
-        let end = end.ok_or(io::ErrorKind::UnexpectedEof)?;
-        OPENED.with_borrow(|file| {
-            let file = file.as_ref().ok_or(io::ErrorKind::NotFound)?;
-            copy(to, &file.subarray(from, end));
-            Ok(())
-        })
-    }
-}
-
-/// Progress that the worker hears of.
-struct ToWorker;
-
-impl Progress for ToWorker {
-    fn advance(&self, done: u64, total: u64) {
-        guideway_progress(done as f64 / total.max(1) as f64);
-    }
-}
+use crate::work::{open, work};
 
 /// A layout that is open.
 #[wasm_bindgen(js_name = Session)]
@@ -107,11 +49,7 @@ impl JsSession {
     /// Opens the bytes of a file.
     #[wasm_bindgen(constructor)]
     pub fn new(name: &str, bytes: Uint8Array) -> Result<JsSession, JsValue> {
-        let byte_count = bytes.length();
-        OPENED.set(Some(bytes));
-        let opened = Session::open(name, &FileParts { byte_count }, &ToWorker);
-        OPENED.set(None);
-        opened.map(Self).map_err(thrown)
+        open(name, bytes).map(Self).map_err(thrown)
     }
 
     /// See [`Session::set_floor_plan`].
@@ -142,27 +80,29 @@ impl JsSession {
 
     /// See [`Session::check`].
     pub fn check(&self, most: usize) -> String {
-        self.0.check(most)
+        work(|| self.0.check(most))
     }
 
     /// See [`Session::render`].
     pub fn render(&mut self, look: &str) -> Result<JsDrawn, JsValue> {
-        self.0.render(look).map(JsDrawn).map_err(thrown)
+        let drawn = work(|| self.0.render(look));
+        drawn.map(JsDrawn).map_err(thrown)
     }
 
     /// See [`Session::png`].
     pub fn png(&mut self, look: &str) -> Result<Vec<u8>, JsValue> {
-        self.0.png(look).map_err(thrown)
+        work(|| self.0.png(look)).map_err(thrown)
     }
 
     /// See [`Session::curves`].
     pub fn curves(&mut self, look: &str, format: &str) -> Result<Vec<u8>, JsValue> {
-        self.0.curves(look, format).map_err(thrown)
+        work(|| self.0.curves(look, format)).map_err(thrown)
     }
 
     /// See [`Session::save`].
     pub fn save(&self, format: &str) -> Result<JsSaved, JsValue> {
-        self.0.save(format).map(JsSaved).map_err(thrown)
+        let saved = work(|| self.0.save(format));
+        saved.map(JsSaved).map_err(thrown)
     }
 
     /// See [`Session::hit`].
@@ -192,7 +132,7 @@ impl JsSession {
 
     /// See [`Session::diff`].
     pub fn diff(&self, other: &JsSession, most: usize) -> String {
-        self.0.diff(&other.0, most)
+        work(|| self.0.diff(&other.0, most))
     }
 }
 

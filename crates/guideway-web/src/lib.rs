@@ -12,13 +12,23 @@
 //! | `elements` | properties, outlines, hit test, search |
 //! | `answers` | layouts, findings, routes and changes as JSON |
 //! | `bindings` | the names of the calls in JavaScript |
+//! | `file` | bytes of the file that is being opened, which stay outside |
+//! | `work` | calls in one thread, or with `threads` in a pool of workers |
 
 mod answers;
 #[cfg(target_arch = "wasm32")]
 mod bindings;
 mod elements;
+#[cfg(target_arch = "wasm32")]
+mod file;
 mod floor_plan;
 mod look;
 mod session;
+#[cfg(all(target_arch = "wasm32", not(feature = "threads")))]
+#[path = "work/one.rs"]
+mod work;
+#[cfg(all(target_arch = "wasm32", feature = "threads"))]
+#[path = "work/pool.rs"]
+mod work;
 
 pub use session::{Drawn, Saved, Session};

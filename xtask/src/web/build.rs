@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 
 use super::sources::{self, PAGE};
+use super::threads;
 use super::tools::{self, linker, wasm_bindgen};
 use crate::debian_rust::DebianRust;
 use crate::step::{cargo, command, heading};
@@ -27,28 +28,24 @@ pub(super) fn page() -> Result<()> {
     tools::ensure()?;
     let rust = DebianRust::ensure()?;
     let bindgen = wasm_bindgen(&folder)?;
-    heading("the engine");
-    let flags = format!("-C target-feature=+simd128 {}", rust.remapped_paths()?);
-    rust.cargo(&["rustc", "--locked", "--package", "guideway-web", "--lib"])
-        .args(["--crate-type", "cdylib", "--profile", "web"])
-        .args(["--target", TARGET, "-Zbuild-std=std,panic_abort"])
-        // Smaller ways to sort and to write numbers; measured: no picture takes longer.
-        .args(["-Zbuild-std-features=optimize_for_size"])
-        // A page hears of a panic as of any trap, and its text is a tenth of the engine.
-        .args(["-Zpanic-immediate-abort", "--config", IMMEDIATE_ABORT])
-        .env("CFLAGS_wasm32_unknown_unknown", zstd_flags())
-        .env("CARGO_TARGET_DIR", folder.join("cargo"))
-        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker()?)
-        .env("RUSTFLAGS", flags)
-        .run()?;
-    let built = folder
-        .join("cargo")
-        .join(TARGET)
-        .join("web/guideway_web.wasm");
-    command(bindgen)
-        .args(["--target", "web", "--out-dir", "web/engine"])
-        .args([&built])
-        .run()?;
+    let one = Engine {
+        title: "the engine",
+        name: "engine",
+        features: "formats",
+        flags: "-C target-feature=+simd128".to_owned(),
+        c_flags: "",
+    };
+    let several = Engine {
+        title: "the engine of several threads",
+        name: "engine-threads",
+        features: "formats,threads",
+        flags: threads::flags(),
+        c_flags: threads::C_FLAGS,
+    };
+    for engine in [one, several] {
+        heading(engine.title);
+        engine.build(&rust, &bindgen, &folder)?;
+    }
     heading("the page");
     let npm = |args: &[&str]| command("npm").args(args).current_dir("web").run();
     // The packages' own scripts are not needed, and others' code need not run here.
@@ -64,6 +61,44 @@ pub(super) fn page() -> Result<()> {
     println!("the npm package is in web: npm pack");
     println!("the command shares it as soon as it is built again: guideway share SITE");
     Ok(())
+}
+
+/// One of the engines.
+struct Engine {
+    title: &'static str,
+    /// The folder under `web` for what `wasm-bindgen` makes of it.
+    name: &'static str,
+    features: &'static str,
+    flags: String,
+    c_flags: &'static str,
+}
+
+impl Engine {
+    fn build(&self, rust: &DebianRust, bindgen: &Path, folder: &Path) -> Result<()> {
+        // The flags are those of the standard library too: a folder for each.
+        let target = folder.join(self.name.replace("engine", "cargo"));
+        let flags = format!("{} {}", self.flags, rust.remapped_paths()?);
+        let c_flags = format!("{} {}", zstd_flags(), self.c_flags);
+        rust.cargo(&["rustc", "--locked", "--package", "guideway-web", "--lib"])
+            .args(["--no-default-features", "--features", self.features])
+            .args(["--crate-type", "cdylib", "--profile", "web"])
+            .args(["--target", TARGET, "-Zbuild-std=std,panic_abort"])
+            // Smaller ways to sort and to write numbers; measured: no picture takes longer.
+            .args(["-Zbuild-std-features=optimize_for_size"])
+            // A page hears of a panic as of any trap, and its text is a tenth of the engine.
+            .args(["-Zpanic-immediate-abort", "--config", IMMEDIATE_ABORT])
+            .env("CFLAGS_wasm32_unknown_unknown", c_flags)
+            .env("CARGO_TARGET_DIR", &target)
+            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker()?)
+            .env("RUSTFLAGS", flags)
+            .run()?;
+        let built = target.join(TARGET).join("web/guideway_web.wasm");
+        let to = Path::new("web").join(self.name);
+        command(bindgen)
+            .args(["--target", "web", "--out-dir"])
+            .args([&to, &built])
+            .run()
+    }
 }
 
 /// Flags that leave unused parts out of zstd.

@@ -5,12 +5,14 @@
 //! |---|---|---|
 //! | `tools` | packages | Node, clang, a linker and `wasm-bindgen` |
 //! | `build` | `crates/guideway-web`, `web/` | `crates/guideway/page`, `target/web`, `web/dist` |
+//! | `threads` | | flags of the engine of several threads |
 //! | `sources` | the files that the page is made of | their hash, which says whether it is stale |
 //!
 //! The tests run the page in Debian's Chromium and Firefox ESR: `web/tests`.
 
 mod build;
 mod sources;
+mod threads;
 mod tools;
 
 use anyhow::{Result, bail};
@@ -45,7 +47,9 @@ fn test() -> Result<()> {
     cargo(&["test", "--quiet", "--workspace", "--lib"])
         .args(write)
         .run()?;
-    for test in ["browser", "element", "widget", "firefox", "shaders"] {
+    for test in [
+        "browser", "element", "threads", "widget", "firefox", "shaders",
+    ] {
         step::command("node")
             .args([format!("web/tests/{test}.mjs")])
             .run()?;

@@ -13,7 +13,11 @@ extern "C" {
     fn encoding(this: &TextDecoder) -> String;
 
     #[wasm_bindgen(method, catch)]
-    fn decode(this: &TextDecoder, bytes: &[u8], options: &JsValue) -> Result<String, JsValue>;
+    fn decode(this: &TextDecoder, bytes: &JsValue, options: &JsValue) -> Result<String, JsValue>;
+
+    /// A copy: memory that threads share, no decoder takes.
+    #[wasm_bindgen(js_namespace = ["Uint8Array", "prototype", "slice"], js_name = call)]
+    fn copy(bytes: &[u8]) -> JsValue;
 
     /// Objects of options are written as JSON.
     #[wasm_bindgen(js_namespace = JSON)]
@@ -106,5 +110,5 @@ fn first_wrong(name: &str, bytes: &[u8]) -> usize {
 }
 
 fn decoded(name: &str, decoder: &str, bytes: &[u8], part: &str) -> Result<String, JsValue> {
-    TextDecoder::new(name, &parse(decoder))?.decode(bytes, &parse(part))
+    TextDecoder::new(name, &parse(decoder))?.decode(&copy(bytes), &parse(part))
 }
