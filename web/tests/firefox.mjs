@@ -7,7 +7,7 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { folder, guideway, isSame, shots, site } from "./harness.mjs";
 import { launchFirefox } from "./marionette.mjs";
-import { serve } from "./serve.mjs";
+import { ISOLATED, serve } from "./serve.mjs";
 
 const firefox = await launchFirefox();
 
@@ -43,20 +43,34 @@ async function sharedPageIsThatOfTheCommand() {
   await firefox.screenshot(join(shots, "firefox-shared.png"));
 }
 
+/** The element with one thread, and with all that an isolated page has. */
 async function elementMovesVehicles() {
-  const server = await serve(resolve("."));
-  const isDrawn = () => document.querySelector("guideway-view")?.map?.drawn > 0;
-  await firefox.open(`${server.url}web/examples/vehicles.html`, isDrawn);
-  const place = () =>
-    firefox.evaluate(() => {
-      const vehicle = document.querySelector("guideway-view").fleet.get("Example/AGV-1");
-      return [vehicle.x, vehicle.y];
+  const pictures = [];
+  for (const headers of [{}, ISOLATED]) {
+    const server = await serve(resolve("."), headers);
+    const isDrawn = () => document.querySelector("guideway-view")?.map?.drawn > 0;
+    await firefox.open(`${server.url}web/examples/vehicles.html`, isDrawn);
+    const place = () =>
+      firefox.evaluate(() => {
+        const vehicle = document.querySelector("guideway-view").fleet.get("Example/AGV-1");
+        return [vehicle.x, vehicle.y];
+      });
+    const before = await place();
+    await new Promise((resolve) => setTimeout(resolve, 2000));
+    assert.notDeepEqual(await place(), before, "the vehicle stands still");
+    const [isAll, picture] = await firefox.evaluate(async () => {
+      const view = document.querySelector("guideway-view");
+      const look = { width: 640, height: 400, stations: true, labels: true };
+      const bytes = new Uint8Array(await view.engine.call("png", [look]));
+      const all = crossOriginIsolated ? Math.min(navigator.hardwareConcurrency, 8) : 1;
+      return [view.threads === all, Array.from(bytes).join()];
     });
-  const before = await place();
-  await new Promise((resolve) => setTimeout(resolve, 2000));
-  assert.notDeepEqual(await place(), before, "the vehicle stands still");
-  await firefox.screenshot(join(shots, "firefox-vehicles.png"));
-  server.close();
+    assert.ok(isAll, "not all threads draw");
+    pictures.push(picture);
+    await firefox.screenshot(join(shots, "firefox-vehicles.png"));
+    server.close();
+  }
+  assert.equal(pictures[0], pictures[1], "several threads draw another picture than one");
 }
 
 try {

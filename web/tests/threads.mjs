@@ -12,11 +12,14 @@ const plain = await serve(resolve("."));
 const browser = await launch();
 
 /** A page with the element; `before` runs in it before the module, and may make workers fail. */
-async function open(server, before = "") {
+async function open(server, { cores = 2, before = "" } = {}) {
   writeFileSync(
     join(folder, "threads.html"),
     `<!doctype html><body style="margin: 0">
-    <script>${before}</script>
+    <script>
+      Object.defineProperty(navigator, "hardwareConcurrency", { get: () => ${cores} });
+      ${before}
+    </script>
     <guideway-view style="display: block; width: 640px; height: 400px"></guideway-view>
     <script type="module">
       window.view = document.querySelector("guideway-view");
@@ -91,16 +94,14 @@ async function picturesAreThoseOfOneThread() {
 
 /** One thread is used, and its engine is fetched, where workers cannot share memory. */
 async function oneThreadWhereMemoryIsNotShared() {
-  const cores = (count) => `Object.defineProperty(navigator, "hardwareConcurrency",
-    { get: () => ${count} });`;
-  for (const before of ["delete globalThis.SharedArrayBuffer;", cores(1)]) {
-    const page = await open(isolated, before);
-    assert.equal(await threads(page), 1, before);
+  for (const options of [{ before: "delete globalThis.SharedArrayBuffer;" }, { cores: 1 }]) {
+    const page = await open(isolated, options);
+    assert.equal(await threads(page), 1);
     assert.deepEqual(fetched(page), ["/web/dist/engine.wasm.gz"]);
     assert.equal(await openFile(page, SITE), 326);
     await page.close();
   }
-  const page = await open(isolated, cores(64));
+  const page = await open(isolated, { cores: 64 });
   assert.equal(await threads(page), 8);
   assert.equal(await openFile(page, SITE), 326);
   await page.close();
@@ -130,7 +131,7 @@ async function oneThreadWhereThreadsDoNotStart() {
     [inWorkers([0], noMemory), /no memory/],
     [noEngine, /404/],
   ]) {
-    const page = await open(isolated, before);
+    const page = await open(isolated, { before });
     assert.equal(await openFile(page, SITE), 326);
     assert.equal(await threads(page), 1, before);
     const warned = page.said.filter((text) => text.startsWith("guideway draws by one thread"));
@@ -144,7 +145,7 @@ async function oneThreadWhereThreadsDoNotStart() {
 async function threadThatDiesIsSaid() {
   const dies = "performance.now = () => { throw new Error('the thread died') }";
   // Either may draw.
-  const page = await open(isolated, inWorkers([1, 2], dies));
+  const page = await open(isolated, { before: inWorkers([1, 2], dies) });
   const failed = page.evaluate(
     () => new Promise((resolve) => view.addEventListener("error", (e) => resolve(e.message))),
   );

@@ -46,7 +46,7 @@ pub fn run_thread() {
     }
 }
 
-/// What the pool asks of the worker that has the file.
+/// A request of the pool to the worker that has the file.
 enum Request {
     Read {
         from: usize,
