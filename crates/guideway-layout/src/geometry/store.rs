@@ -195,6 +195,14 @@ impl Geometry {
             .reduce(Bounds::union)
     }
 
+    /// Box of all control points; `None` if there are none. Known hulls are fewer numbers to read.
+    pub fn bounds(&self) -> Option<Bounds<f64>> {
+        match self.known_hulls() {
+            Some(hulls) => hulls.all(),
+            None => self.hull_bounds(0..self.path_count()),
+        }
+    }
+
     /// Hulls of all paths. The first call after a change reads all points once, on all threads;
     /// later calls return the same hulls.
     pub fn hulls(&self) -> &Hulls {

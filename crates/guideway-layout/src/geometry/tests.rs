@@ -204,6 +204,7 @@ fn hulls_contain_the_points_of_all_runs() {
     let narrow = points(0, 19).iter().map(|p| p.to_f32()).collect();
     let narrow = Geometry::from_f32(narrow, vec![4, 9, 13, 19]);
     for geometry in [wide, narrow.with_path_ends(vec![1, 3, 4])] {
+        let all = geometry.bounds();
         let hulls = geometry.hulls();
         assert_eq!(hulls.len(), 3);
         for rows in [&[0][..], &[1], &[2], &[2, 0], &[0, 1, 2], &[]] {
@@ -211,6 +212,7 @@ fn hulls_contain_the_points_of_all_runs() {
             assert_eq!(hulls.of(rows()), geometry.hull_bounds(rows()));
         }
         assert_eq!(hulls.all(), geometry.hull_bounds(0..3));
+        assert_eq!((all, geometry.bounds()), (hulls.all(), hulls.all()));
     }
 }
 

@@ -213,7 +213,7 @@ impl Paths {
 
     /// Box of all control points, which contains all curves; `None` if there are no points.
     pub fn hull_bounds(&self) -> Option<Bounds<f64>> {
-        self.geometry.hull_bounds(0..self.len())
+        self.geometry.bounds()
     }
 }
 
