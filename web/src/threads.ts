@@ -12,7 +12,7 @@ export interface Threaded {
 type Scope = { crossOriginIsolated?: boolean; SharedArrayBuffer?: unknown; navigator?: Navigator };
 type Message = { broken?: string };
 
-/** More threads than that wait for memory most of the time, and each takes some. */
+/** Threads of one element at most: each is a worker, and a page may have many elements. */
 const MOST = 8;
 /** Time in which all must have started. */
 const START_MS = 20_000;
