@@ -1,9 +1,9 @@
 //! The compiler for other systems: Debian's `rustc-web`, unpacked under `target/` and not
 //! installed. It comes with the sources of the standard library, which cargo builds for each.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 use crate::prerequisites::apt;
 use crate::step::{Step, command};
@@ -86,4 +86,26 @@ impl DebianRust {
     fn step(&self, program: PathBuf) -> Step {
         command(program).env("LD_LIBRARY_PATH", self.0.join("usr/lib/x86_64-linux-gnu"))
     }
+}
+
+/// The linker of rustup's own compiler: Debian's package has none.
+///
+/// # Errors
+/// When rustup did not install Rust.
+pub(crate) fn linker() -> Result<PathBuf> {
+    let sysroot = command("rustc").args(["--print", "sysroot"]).capture()?;
+    let linker =
+        Path::new(sysroot.stdout.trim()).join("lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld");
+    match linker.exists() {
+        true => Ok(linker),
+        false => bail!("no {}: install Rust with rustup", linker.display()),
+    }
+}
+
+/// The folder in which a C compiler finds it by the name `ld.lld`.
+///
+/// # Errors
+/// See [`linker`].
+pub(crate) fn lld_folder() -> Result<PathBuf> {
+    Ok(linker()?.with_file_name("gcc-ld"))
 }

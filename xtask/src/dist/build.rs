@@ -1,12 +1,9 @@
-//! Builds the optimized binaries in a target folder of their own.
+//! The programs of a release, and how cargo builds them.
 
 use std::env;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
-use anyhow::{Context, Result, bail};
-
-use super::Library;
+use anyhow::{Context, Result};
 
 /// The programs of an installation.
 #[derive(Clone, Debug)]
@@ -39,8 +36,8 @@ pub const PROFILE: &str = "dist";
 pub const UNWINDING_PROFILE: &str = "dist-unwinding";
 
 /// Arguments of cargo that build the command. The last optimization, of all crates together, is
-/// that of its last crate.
-pub const COMMAND: [&str; 7] = [
+/// that of its last crate; cargo would not strip that one, whose profile has its name.
+pub const COMMAND: [&str; 8] = [
     "rustc",
     "--package=guideway",
     "--bin=guideway",
@@ -48,6 +45,7 @@ pub const COMMAND: [&str; 7] = [
     "--profile=dist",
     "--",
     "-Copt-level=3",
+    "-Cstrip=symbols",
 ];
 
 /// Arguments of cargo that build the window.
@@ -60,74 +58,11 @@ pub const WINDOW: [&str; 6] = [
     "-Copt-level=3",
 ];
 
-/// Joins functions of the same instructions, of which generic code has many: a fortieth of the
-/// program. Nothing here compares functions by their addresses.
-const FOLDED: &str = "-Clink-arg=-Wl,--icf=all";
-
 /// Flags of the C compiler that leave out what no level of compression in use needs of zstd.
 pub const ZSTD_FLAGS: &str = "-DZSTD_EXCLUDE_GREEDY_BLOCK_COMPRESSOR \
      -DZSTD_EXCLUDE_LAZY_BLOCK_COMPRESSOR -DZSTD_EXCLUDE_LAZY2_BLOCK_COMPRESSOR \
      -DZSTD_EXCLUDE_BTLAZY2_BLOCK_COMPRESSOR -DZSTD_EXCLUDE_BTOPT_BLOCK_COMPRESSOR \
      -DZSTD_EXCLUDE_BTULTRA_BLOCK_COMPRESSOR";
-
-/// Builds command and window, optimized and stripped, with all methods.
-///
-/// # Errors
-/// When cargo fails.
-pub fn release(top: &Path) -> Result<Binaries> {
-    let script = top.join("packaging/no-unwinding.ld");
-    let script = format!("-Clink-arg=-Wl,-T,{}", script.display());
-    // The linkers of other systems know no such script, and the tables stay.
-    let tables: &[&str] = match cfg!(target_os = "linux") {
-        true => &[&script, "-Clink-arg=-Wl,--no-eh-frame-hdr"],
-        false => &[],
-    };
-    // Rust links by LLD there, and elsewhere by linkers that may not fold.
-    let folded: &[&str] = match cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        true => &[FOLDED],
-        false => &[],
-    };
-    let folder = build(top, &[&COMMAND, folded, tables].concat(), PROFILE)?;
-    let command = Binaries::in_folder(&folder).command;
-    let folder = build(top, &[&WINDOW, folded].concat(), UNWINDING_PROFILE)?;
-    let window = Binaries::in_folder(&folder).window;
-    Ok(Binaries { command, window })
-}
-
-/// Builds the C library, optimized.
-///
-/// # Errors
-/// When cargo fails.
-pub fn release_library(top: &Path) -> Result<Library> {
-    let library = [
-        "rustc",
-        "--package=guideway-c",
-        "--crate-type=cdylib,staticlib",
-        "--profile=dist-unwinding",
-    ];
-    let folder = build(top, &library, UNWINDING_PROFILE)?;
-    Ok(Library::in_folder(&folder))
-}
-
-/// Runs a task of cargo's and returns the folder of what it built.
-fn build(top: &Path, task: &[&str], profile: &str) -> Result<PathBuf> {
-    let target = top.join("target").join("dist");
-    let (task, rest) = task.split_at(1);
-    let built = Command::new(env!("CARGO"))
-        .args(task)
-        .arg("--locked")
-        .args(rest)
-        .current_dir(top)
-        .env("CARGO_TARGET_DIR", &target)
-        .env("CFLAGS", ZSTD_FLAGS)
-        .env("RUSTFLAGS", remapped_paths(top)?)
-        .status()
-        .context("cannot start cargo")?;
-    if !built.success() {
-        bail!("the release build failed: {built}");
-    }
-    Ok(target.join(profile))
-}
 
 /// Compiler flags by which messages of panics name files without the folders of this machine.
 ///

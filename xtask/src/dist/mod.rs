@@ -1,9 +1,9 @@
-//! `cargo xtask dist`: release builds to packages that install, with checksums and a bill of
+//! The parts of `cargo xtask dist`: release builds to packages that install, with checksums and a bill of
 //! materials.
 //!
 //! | module | purpose |
 //! |---|---|
-//! | `build` | optimized binaries without paths of this machine |
+//! | `build` | the programs, and how cargo builds them without paths of this machine |
 //! | `dependencies` | the crates in them, from `cargo metadata` |
 //! | `library` | the files of the C library, below a folder |
 //! | `licenses` | the license texts of these crates |
@@ -22,8 +22,7 @@ mod tree;
 mod windows;
 
 pub use build::{
-    Binaries, COMMAND, PROFILE, UNWINDING_PROFILE, WINDOW, ZSTD_FLAGS, release, release_library,
-    remapped_paths,
+    Binaries, COMMAND, PROFILE, UNWINDING_PROFILE, WINDOW, ZSTD_FLAGS, remapped_paths,
 };
 pub use dependencies::{Dependency, dependencies};
 pub use library::{Library, stage_library};

@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use super::sources::{self, PAGE};
 use super::threads;
-use super::tools::{self, linker, wasm_bindgen};
-use crate::debian_rust::DebianRust;
+use super::tools::{self, wasm_bindgen};
+use crate::debian_rust::{DebianRust, linker};
 use crate::step::{cargo, command, heading};
 
 const TARGET: &str = "wasm32-unknown-unknown";

@@ -3,7 +3,7 @@
 //!
 //! | module | input | output |
 //! |---|---|---|
-//! | `tools` | packages | Node, clang, a linker and `wasm-bindgen` |
+//! | `tools` | packages | Node, clang and `wasm-bindgen` |
 //! | `build` | `crates/guideway-web`, `web/` | `crates/guideway/page`, `target/web`, `web/dist` |
 //! | `threads` | | flags of the engine of several threads |
 //! | `sources` | the files that the page is made of | their hash, which says whether it is stale |

@@ -1,8 +1,8 @@
-//! Tools of the page: a C compiler, Node, a linker for `wasm32` and `wasm-bindgen`.
+//! Tools of the page: a C compiler, Node and `wasm-bindgen`.
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 
 use crate::prerequisites::apt_install;
 use crate::step::{cargo, command};
@@ -16,17 +16,6 @@ pub(super) fn ensure() -> Result<()> {
         apt_install(&["nodejs", "npm"])?;
     }
     Ok(())
-}
-
-/// The linker of rustup's own compiler: Debian's package has none.
-pub(super) fn linker() -> Result<PathBuf> {
-    let sysroot = command("rustc").args(["--print", "sysroot"]).capture()?;
-    let linker =
-        Path::new(sysroot.stdout.trim()).join("lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld");
-    match linker.exists() {
-        true => Ok(linker),
-        false => bail!("no {}: install Rust with rustup", linker.display()),
-    }
 }
 
 /// The program that writes the calls of the engine in JavaScript, of the version of the lock file.

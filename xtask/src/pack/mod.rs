@@ -1,12 +1,14 @@
 //! `cargo xtask dist`: builds a release and packs it: the programs, and the C library.
 
+mod build;
+
 use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 use xtask::dist::{
-    Compression, Package, archive, checksums, deb, dependencies, notices, release, release_library,
-    sbom, stage, stage_library, stage_notices,
+    Compression, Package, archive, checksums, deb, dependencies, notices, sbom, stage,
+    stage_library, stage_notices,
 };
 
 use crate::step::heading;
@@ -15,8 +17,8 @@ use crate::step::heading;
 pub(crate) fn run() -> Result<()> {
     let top = std::env::current_dir()?;
     heading("release build");
-    let binaries = release(&top)?;
-    let library = release_library(&top)?;
+    let binaries = build::programs(&top)?;
+    let library = build::library(&top)?;
     heading("packages");
     let dependencies = dependencies(&top, None)?;
     let own = dependencies.iter().find(|krate| krate.name == "guideway");
