@@ -312,25 +312,20 @@ impl CanvasPainter<'_> {
         let pointer_m = self
             .pointer_px
             .map(|at_px| self.view.world_from_pixel(at_px));
-        match self.tools.gesture() {
-            Gesture::Box { from_px, to_px } => paint_box(painter, self.screen, *from_px, *to_px),
-            Gesture::Points(points) => {
-                let snapped = |at_m| self.tools.snapped(&context, at_m, self.modifiers).at_m;
-                let next = pointer_m.map(snapped);
-                let points_m: Vec<Point<f64>> = points.iter().copied().chain(next).collect();
-                let drawing = self.tools.drawing(next);
-                let document = self.files.document();
-                let paths = drawing
-                    .zip(document)
-                    .and_then(|(d, document)| document.preview(&d).ok());
-                let draft = Draft {
-                    points_m: &points_m,
-                    paths: paths.as_ref(),
-                    has_handles: self.tools.tool() == Tool::Bezier,
-                };
-                draft.paint(painter, self.screen, &self.view, self.settings);
-            }
-            _ => {}
+        if let Gesture::Box { from_px, to_px } = self.tools.gesture() {
+            paint_box(painter, self.screen, *from_px, *to_px);
+        }
+        if let Some(sketch) = self.tools.sketch(&context, pointer_m, self.modifiers) {
+            let paths = sketch
+                .drawing
+                .zip(context.document)
+                .and_then(|(drawing, document)| document.preview(&drawing).ok());
+            let draft = Draft {
+                points_m: &sketch.points_m,
+                paths: paths.as_ref(),
+                has_handles: self.tools.tool() == Tool::Bezier,
+            };
+            draft.paint(painter, self.screen, &self.view, self.settings);
         }
         let target = |at_m| self.tools.snap_target(&context, at_m, self.modifiers);
         if let Some(snapped) = pointer_m.and_then(target) {

@@ -11,7 +11,7 @@ use guideway_spline::Point;
 use super::paint_draw_list::{color32, paint_text_box};
 use super::paint_gesture::{HOVER_COLOR, MIN_OUTLINE_WIDTH, paint_outline};
 use super::screen::Screen;
-use super::shape_text::shape_text;
+use super::shape_text::{is_bent, shape_text};
 use crate::display_settings::DisplaySettings;
 use crate::language::say;
 
@@ -48,11 +48,15 @@ impl Draft<'_> {
         };
         let is_single = |layout: &&Layout| layout.paths.len() == 1;
         let text = match self.paths.filter(is_single) {
-            Some(layout) if self.points_m.len() > 2 => {
+            Some(layout) => {
                 let path = layout.paths.get(0);
-                shape_text(path, &bends(path))
+                let bends = bends(path);
+                match self.points_m.len() > 2 || is_bent(&bends) {
+                    true => shape_text(path, &bends),
+                    false => dimensions(self.points_m),
+                }
             }
-            _ => dimensions(self.points_m),
+            None => dimensions(self.points_m),
         };
         match self.paths {
             Some(layout) => {

@@ -11,14 +11,18 @@ const STRAIGHT_RADIUS_M: f64 = 1e5;
 /// Length and tightest bend of a path with these bends.
 pub(crate) fn shape_text(path: PathRef<'_>, bends: &[Bend]) -> String {
     let length = text_format::length(path.length_m());
-    let radius_m = tightest_radius_m(bends);
-    match radius_m.is_finite() && radius_m < STRAIGHT_RADIUS_M {
+    match is_bent(bends) {
         true => {
-            let radius = text_format::length(radius_m);
+            let radius = text_format::length(tightest_radius_m(bends));
             say!("{length} long, tightest bend {radius}", length, radius)
         }
         false => say!("{length} long, straight", length),
     }
+}
+
+/// Returns `true` if a path with these bends is not straight.
+pub(super) fn is_bent(bends: &[Bend]) -> bool {
+    tightest_radius_m(bends) < STRAIGHT_RADIUS_M
 }
 
 #[cfg(test)]

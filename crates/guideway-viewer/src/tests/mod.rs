@@ -38,4 +38,5 @@ mod table;
 mod test_window;
 mod touch;
 mod welcome;
+mod typed_input;
 mod workflows;

@@ -1,7 +1,7 @@
 //! Typed input of the tools that add points: keys and texts in the order in which they came.
 
 use eframe::egui::{Key, Modifiers};
-use guideway_document::{DrawnCurve, Snapped};
+use guideway_document::{Drawing, DrawnCurve, Snapped};
 use guideway_spline::Point;
 
 use super::tool::Tool;
@@ -17,7 +17,42 @@ pub(crate) enum KeyAnswer {
     Taken(Option<ToolEffect>),
 }
 
+/// The points so far with the next one, and the path through them.
+pub(crate) struct Sketch {
+    pub(crate) points_m: Vec<Point<f64>>,
+    /// `None` without a tool that draws.
+    pub(crate) drawing: Option<Drawing>,
+}
+
 impl Tools {
+    /// What the tools would draw: with the typed place or radius, else with the place at the
+    /// pointer. `None` without a point.
+    pub(crate) fn sketch(
+        &self,
+        context: &ToolContext<'_>,
+        pointer_m: Option<Point<f64>>,
+        modifiers: Modifiers,
+    ) -> Option<Sketch> {
+        let typed = self.typed.as_ref();
+        let typed = typed.and_then(|typed| parse(&typed.text).ok());
+        if let Some(Typed::Radius(radius_m)) = typed
+            && let Ok(drawing) = self.drawing_of_radius(radius_m, pointer_m)
+        {
+            let (points_m, drawing) = (self.points().to_vec(), Some(drawing));
+            return Some(Sketch { points_m, drawing });
+        }
+        let typed = typed.and_then(|typed| self.place_of(typed, pointer_m, context).ok());
+        if typed.is_none() && self.points().is_empty() {
+            return None;
+        }
+        let snapped = |at_m| self.snapped(context, at_m, modifiers).at_m;
+        let next_m = typed.or_else(|| pointer_m.map(snapped));
+        Some(Sketch {
+            points_m: self.points().iter().copied().chain(next_m).collect(),
+            drawing: self.drawing(next_m),
+        })
+    }
+
     /// The text that is being typed.
     pub(crate) fn typed(&self) -> Option<&TypedText> {
         self.typed.as_ref()
@@ -92,9 +127,12 @@ impl Tools {
         let typed = self.typed.as_ref()?;
         let pointer_m = pointer_px.map(|at_px| context.world(at_px));
         let effect = match parse(&typed.text) {
-            Ok(Typed::Radius(radius_m)) => self.arc_of(radius_m, pointer_m, context),
+            Ok(Typed::Radius(radius_m)) => {
+                let drawing = self.drawing_of_radius(radius_m, pointer_m);
+                drawing.map(|drawing| Some(self.draw(drawing, context)))
+            }
             Ok(typed) => self
-                .place_of(typed, pointer_m)
+                .place_of(typed, pointer_m, context)
                 .map(|at_m| self.add_point(Snapped { at_m, to: None }, context)),
             Err(error) => Err(error),
         };
@@ -107,7 +145,12 @@ impl Tools {
     }
 
     /// The position that a text means.
-    fn place_of(&self, typed: Typed, pointer_m: Option<Point<f64>>) -> Result<Point<f64>, String> {
+    fn place_of(
+        &self,
+        typed: Typed,
+        pointer_m: Option<Point<f64>>,
+        context: &ToolContext<'_>,
+    ) -> Result<Point<f64>, String> {
         let last = self.points().last().copied();
         let last = last.ok_or(t("this needs a first point; click one, or type x,y"));
         match typed {
@@ -122,9 +165,15 @@ impl Tools {
             }
             Typed::Length(length_m) => {
                 let last = last?;
+                // A pointer on the last point gives no direction: that of the last line continues.
+                let reach_m = context.hit_radius_m();
                 let along = pointer_m.map(|at_m| at_m - last);
-                let along = along.filter(|along| along.norm() > 0.0);
-                let along = along.ok_or(t("point in the direction, or type length<angle"))?;
+                let along = along.filter(|along| along.norm() > reach_m);
+                let along = along.or_else(|| {
+                    let [from, to] = *self.points().last_chunk()?;
+                    Some(to - from).filter(|along| along.norm() > 0.0)
+                });
+                let along = along.unwrap_or(Point::new(1.0, 0.0));
                 Ok(last + along * (length_m / along.norm()))
             }
             Typed::Radius(_) => Err(t("a radius needs start and end of an arc").to_owned()),
@@ -132,12 +181,11 @@ impl Tools {
     }
 
     /// The arc of a radius, on the side of the pointer.
-    fn arc_of(
-        &mut self,
+    fn drawing_of_radius(
+        &self,
         radius_m: f64,
         pointer_m: Option<Point<f64>>,
-        context: &ToolContext<'_>,
-    ) -> Result<Option<ToolEffect>, String> {
+    ) -> Result<Drawing, String> {
         let needs_ends = || t("a radius needs start and end of an arc").to_owned();
         let (Tool::Arc, &[start, end]) = (self.tool, self.points()) else {
             return Err(needs_ends());
@@ -147,6 +195,6 @@ impl Tools {
         let bulges_left = pointer_m.is_some_and(|at_m| (end - start).cross(at_m - start) > 0.0);
         let signed_m = if bulges_left { -radius_m } else { radius_m };
         drawing.curve = DrawnCurve::ArcOfRadius(signed_m);
-        Ok(Some(self.draw(drawing, context)))
+        Ok(drawing)
     }
 }
