@@ -8,6 +8,7 @@
 //! | [`pick`], [`pick_element`], [`nearest`] | a point | the path or element under it |
 //! | [`Query`], [`search`], [`locate`] | text | paths, nodes, stations |
 //! | [`Group`] | a level, a vehicle type | the elements that belong to it |
+//! | [`levels_by_height`] | layout | the order of its levels in lists |
 //! | [`measure`] | a path | lengths and radii |
 //! | [`decorations`] | document, view, settings | marks, outlines and draw lists |
 //! | [`fixes()`] | a finding | edits that resolve it |
@@ -27,6 +28,7 @@ mod group;
 mod history;
 mod index;
 mod journal;
+mod level_order;
 mod locate;
 pub mod measure;
 mod pick;
@@ -56,6 +58,7 @@ pub use guideway_layout::text_format;
 pub use history::SavedState;
 pub use index::Index;
 pub use journal::{JournalEntry, ReplayProgress, count_records, replay};
+pub use level_order::levels_by_height;
 pub use locate::{locate, located};
 pub use pick::{Hit, nearest, pick};
 pub use pick_element::pick_element;

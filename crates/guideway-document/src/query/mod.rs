@@ -18,6 +18,7 @@ use guideway_scene::Table;
 
 pub use self::column::Column;
 use self::condition::Condition;
+pub(crate) use self::natural::natural_order;
 pub use self::parse::QueryError;
 use crate::PathSet;
 

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 /// Compares two texts: `lane 2` comes before `Lane 10`.
-pub(super) fn natural_order(a: &str, b: &str) -> Ordering {
+pub(crate) fn natural_order(a: &str, b: &str) -> Ordering {
     let (mut left, mut right) = (a, b);
     loop {
         let (Some(x), Some(y)) = (left.chars().next(), right.chars().next()) else {

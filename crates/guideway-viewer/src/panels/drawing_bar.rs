@@ -1,7 +1,7 @@
 //! The drawing bar: current level, snapping, grid step, and the properties of new paths.
 
 use eframe::egui::{ComboBox, DragValue, Id, Label, Ui};
-use guideway_document::Document;
+use guideway_document::{Document, levels_by_height};
 use guideway_layout::Direction;
 
 use super::new_edges::NewEdgesPanel;
@@ -134,7 +134,7 @@ fn show_level(ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
     ComboBox::from_id_salt("level")
         .selected_text(text)
         .show_ui(ui, |ui| {
-            let each = (0..levels.len() as u32).map(Some);
+            let each = levels_by_height(document.layout()).into_iter().map(Some);
             for level in std::iter::once(None).chain(each) {
                 let text = level.map_or(t("all"), name);
                 if ui.selectable_label(shown == level, text).clicked() {

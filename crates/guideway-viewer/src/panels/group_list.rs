@@ -2,7 +2,7 @@
 //! elements, menus have their commands, and buttons add more.
 
 use eframe::egui::{Button, CollapsingHeader, RadioButton, Response, Role, Ui, WidgetInfo};
-use guideway_document::{Document, Elements, Group, SelectMode};
+use guideway_document::{Document, Elements, Group, SelectMode, levels_by_height};
 
 use super::menu_bar::command_entries;
 use crate::action::{Action, GroupRequest};
@@ -177,9 +177,10 @@ fn named(button: Response, hint: &str) -> Response {
     button
 }
 
-/// Row and name of every level.
+/// Row and name of every level, the highest first.
 fn levels(document: &Document) -> Vec<(u32, String)> {
-    let levels = document.layout().levels.iter().zip(0..);
-    let levels = levels.map(|(level, row)| (row, level.name_or_id().to_owned()));
+    let layout = document.layout();
+    let (levels, rows) = (&layout.levels, levels_by_height(layout).into_iter());
+    let levels = rows.map(|row| (row, levels[row as usize].name_or_id().to_owned()));
     levels.collect()
 }

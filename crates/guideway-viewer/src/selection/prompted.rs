@@ -1,7 +1,9 @@
 //! Commands that need a number or a name: fillet, weld, distribute, array, level, rename.
 
-use guideway_document::{Document, Element, Elements, Group, LevelFact, PathSet, ShapeError};
-use guideway_layout::{Layout, Level, UserError};
+use guideway_document::{
+    Document, Element, Elements, Group, LevelFact, PathSet, ShapeError, levels_by_height,
+};
+use guideway_layout::{Layout, UserError};
 use guideway_spline::Point;
 
 use super::arrange::{corners, selected_nodes, selected_paths};
@@ -219,9 +221,11 @@ fn only_named(selected: &Elements) -> Result<Named, UserError> {
     }
 }
 
-/// The names of all levels, or their identifiers where they have none.
+/// The names of all levels, or their identifiers where they have none, the highest first.
 pub(crate) fn level_names(layout: &Layout) -> Vec<&str> {
-    layout.levels.iter().map(Level::name_or_id).collect()
+    let rows = levels_by_height(layout).into_iter();
+    let names = rows.map(|row| layout.levels[row as usize].name_or_id());
+    names.collect()
 }
 
 fn level_named(document: &Document, name: &str) -> Result<u32, String> {

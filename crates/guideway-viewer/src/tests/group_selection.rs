@@ -129,7 +129,12 @@ fn properties_of_levels_are_typed_with_units() {
     window.type_over("loft", "hall");
     assert!(has_notice(window.app(), "hall"), "the name is taken");
     assert_eq!(window.document().layout().levels[1].id, "loft");
-    assert!(window.harness.query_by_label("1 path, 2 nodes").is_some());
+    assert!(
+        window
+            .harness
+            .query_by_label("on it: 1 path, 2 nodes")
+            .is_some()
+    );
     for _ in 0..3 {
         window.key(CTRL, Key::Z);
     }

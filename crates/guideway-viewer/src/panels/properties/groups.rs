@@ -147,11 +147,8 @@ impl ShownGroups {
                 self.show_field(ui, field, entry, actions);
             }
         });
-        ui.horizontal_wrapped(|ui| {
-            let (meaning, members) = &self.members;
-            ui.label(*meaning);
-            ui.label(members);
-        });
+        let (meaning, members) = &self.members;
+        ui.label(format!("{meaning}: {members}"));
     }
 
     fn show_field(&self, ui: &mut Ui, field: &Field, entry: &mut Entry, actions: &mut Vec<Action>) {

@@ -91,8 +91,8 @@ pub(super) fn level(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
     let combo = ComboBox::from_id_salt(("level", shown.of.element()));
     let text = present.map_or(t("several values"), name);
     combo.selected_text(text).show_ui(ui, |ui| {
-        let levels = (0..shown.levels.len() as u32).map(Some).chain([None]);
-        for level in levels {
+        let levels = shown.levels_by_height.iter().copied().map(Some);
+        for level in levels.chain([None]) {
             let label = ui.selectable_label(present == Some(level), name(level));
             if label.clicked() && present != Some(level) {
                 let elements = shown.elements();

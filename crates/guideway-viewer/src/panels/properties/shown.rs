@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_document::{Elements, PathSet};
+use guideway_document::{Elements, PathSet, levels_by_height};
 use guideway_layout::{Layout, Level, Property};
 use guideway_scene::Table;
 
@@ -19,6 +19,7 @@ pub(super) struct Shown {
     pub(super) facts: Facts,
     pub(super) fields: Vec<Field>,
     pub(super) levels: Vec<String>,
+    pub(super) levels_by_height: Vec<u32>,
     /// Vehicle types that the elements have entries for, by name.
     pub(super) types: Vec<String>,
     /// Lengths of paths; `None` for other elements.
@@ -44,6 +45,7 @@ impl Shown {
             shape: (of == Table::Paths).then(|| PathShape::new(layout, rows)),
             rows: Arc::new(rows.clone()),
             levels: layout.levels.iter().map(name).collect(),
+            levels_by_height: levels_by_height(layout),
         }
     }
 
