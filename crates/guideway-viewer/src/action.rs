@@ -20,11 +20,9 @@ pub(crate) enum Action {
     /// Edits the active document.
     Edit(EditTask),
     /// Renames a vehicle type by this edit of the active document.
-    RenameVehicleType {
-        edit: EditTask,
-        old: String,
-        new: String,
-    },
+    RenameVehicleType(EditTask, TypeRename),
+    /// Follows the new name of a vehicle type of the active document.
+    VehicleTypeRenamed(TypeRename),
     /// Opens the dialog of a new level or vehicle type.
     ShowGroup(GroupRequest),
     /// Selects the paths that match the query of the find panel.
@@ -93,19 +91,11 @@ pub(crate) enum Action {
     SaveAndLeave,
 }
 
-impl Action {
-    /// The edit of a name or another field; `renamed_type` is the vehicle type that it gives the
-    /// name `text`, if any.
-    pub(crate) fn of_field(edit: EditTask, renamed_type: Option<String>, text: &str) -> Self {
-        match renamed_type {
-            Some(old) => Self::RenameVehicleType {
-                edit,
-                old,
-                new: text.trim().to_owned(),
-            },
-            None => Self::Edit(edit),
-        }
-    }
+/// A vehicle type that gets another name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct TypeRename {
+    pub(crate) old: String,
+    pub(crate) new: String,
 }
 
 /// The object that a dialog creates.

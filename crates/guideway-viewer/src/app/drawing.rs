@@ -8,7 +8,7 @@ use guideway_layout::{Layout, Level, UserError};
 use guideway_spline::{Affine, Point};
 
 use super::state::App;
-use crate::action::GroupRequest;
+use crate::action::{GroupRequest, TypeRename};
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::files::{Layer, NewLayout};
@@ -128,24 +128,39 @@ impl App {
         }
     }
 
-    /// Renames a vehicle type in the document, and for new paths and routes.
-    pub(super) fn rename_vehicle_type(&mut self, edit: EditTask, old: &str, new: &str) {
+    /// Renames a vehicle type in the document, and then for new paths and routes.
+    pub(super) fn rename_vehicle_type(&mut self, edit: EditTask, rename: TypeRename) {
+        let (edit, outcome) = edit.with_outcome();
+        self.renames.push((outcome, rename));
         self.edit(edit);
+    }
+
+    /// Ends the renames of vehicle types that are complete.
+    pub(super) fn poll_renames(&mut self) {
+        for (outcome, rename) in std::mem::take(&mut self.renames) {
+            match outcome.poll() {
+                None => self.renames.push((outcome, rename)),
+                Some(Ok(())) => self.follow_rename(&rename),
+                Some(Err(notice)) => self.dialogs.notices.add(notice),
+            }
+        }
+    }
+
+    /// Gives new paths and routes the new name of their vehicle type.
+    pub(super) fn follow_rename(&mut self, TypeRename { old, new }: &TypeRename) {
         let template = &mut self.tools.template;
         self.new_edges.rename_type(template, old, new);
         let of_route = self.bottom.route.vehicle_type.as_mut();
         if let Some(name) = of_route.filter(|name| *name == old) {
-            new.clone_into(name);
+            name.clone_from(new);
         }
     }
 
     /// Runs a command that arranges the selection, or asks for the number or name that it needs.
     pub(super) fn arrange(&mut self, command: Command, ctx: &Context) {
         self.tools.abort_drag();
-        let Some(document) = self.files.document() else {
-            return;
-        };
-        match question(command, document) {
+        let document = self.files.document();
+        match document.and_then(|document| question(command, document)) {
             Some(Ok(question)) => return self.dialogs.text.ask(question),
             Some(Err(error)) => return self.dialogs.notices.add(error.to_string()),
             None => {}

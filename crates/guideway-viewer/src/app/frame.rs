@@ -8,6 +8,7 @@ use guideway_document::Document;
 use guideway_spline::Affine;
 
 use super::state::App;
+use super::waiting::Input;
 use crate::canvas::CanvasPainter;
 use crate::files::{Layer, LayerContext};
 use crate::language::{say, set_language};
@@ -111,6 +112,7 @@ impl App {
         actions.extend(dialogs.settings.show(&ctx, &mut self.settings));
         dialogs.about.show(&ctx, &self.adapter, self.methods.name());
         self.apply_all(actions, &ctx);
+        self.had_field = ctx.text_edit_focused();
     }
 
     /// Shows the name of the active file in the title of the window, and whether it is saved.
@@ -234,6 +236,10 @@ impl App {
     /// Takes the results of all background threads.
     fn poll(&mut self, ctx: &Context) {
         self.poll_layers(ctx);
+        self.poll_renames();
+        let answers = self.dialogs.poll();
+        self.apply_all(answers, ctx);
+        self.run_waiting(ctx);
         self.wait_for_first_picture(ctx);
         let LayerContext {
             services, repaint, ..
@@ -254,6 +260,25 @@ impl App {
             self.canvas.camera.fit(bounds);
         }
         self.poll_files(ctx);
+    }
+
+    /// Runs the input that waits for the document, up to one that edits or asks something.
+    fn run_waiting(&mut self, ctx: &Context) {
+        while !self.waiting.is_empty() {
+            let layer = self.files.active();
+            let layer = layer.filter(|layer| self.waiting.is_for(layer.path()));
+            if layer.is_some_and(|layer| layer.slot.is_editing()) {
+                return;
+            }
+            if layer.is_none() || self.dialogs.is_modal(&self.files) {
+                return self.waiting.clear();
+            }
+            match self.waiting.next() {
+                Some(Input::Command(command)) => self.perform_now(command, ctx),
+                Some(Input::Pointer(event)) => self.point_now(event),
+                None => {}
+            }
+        }
     }
 
     /// Checks the active file again after a change.

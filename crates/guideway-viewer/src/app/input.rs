@@ -13,8 +13,11 @@ impl App {
     /// Handles the keys and pointer events of a frame. Fields and dialogs get what is left.
     pub(super) fn take_input(&mut self, ctx: &Context) {
         let events = ctx.input(|input| input.events.clone());
+        // A field has lost the focus already to an Escape of this frame.
+        self.has_field_until_escape = self.had_field && events.iter().any(is_escape);
         let mut is_left = Vec::with_capacity(events.len());
         for event in &events {
+            self.has_field_until_escape &= !is_escape(event);
             is_left.push(!self.take_key(event, ctx) && !self.take_text(event, ctx));
             self.take_pointer(event, ctx);
         }
@@ -42,7 +45,7 @@ impl App {
         else {
             return false;
         };
-        let is_typing = ctx.text_edit_focused();
+        let is_typing = self.is_typing(ctx);
         if !is_typing
             && !self.dialogs.is_modal(&self.files)
             && self.take_typed_key(key, modifiers, ctx)
@@ -63,6 +66,11 @@ impl App {
         }
         self.perform(command, ctx);
         true
+    }
+
+    /// Returns `true` if keys belong to a text field.
+    fn is_typing(&self, ctx: &Context) -> bool {
+        self.has_field_until_escape || ctx.text_edit_focused()
     }
 
     /// Inserts or removes a control point under the pointer.
@@ -97,7 +105,7 @@ impl App {
     /// Takes typed text, and the clipboard events by which the window system replaces Ctrl+C,
     /// Ctrl+X and Ctrl+V. Returns `true` if the event is no longer needed.
     fn take_text(&mut self, event: &Event, ctx: &Context) -> bool {
-        if ctx.text_edit_focused() || self.dialogs.is_modal(&self.files) {
+        if self.is_typing(ctx) || self.dialogs.is_modal(&self.files) {
             return false;
         }
         match event {
@@ -140,6 +148,17 @@ impl App {
             }
         }
     }
+}
+
+fn is_escape(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Key {
+            key: Key::Escape,
+            pressed: true,
+            ..
+        }
+    )
 }
 
 /// Returns `true` if a text field handles the shortcut itself.

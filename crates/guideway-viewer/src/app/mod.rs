@@ -29,10 +29,12 @@ mod open_project;
 mod opening;
 mod picking;
 mod pictures;
+mod postponed;
 mod project;
 mod remember;
 mod routing;
 mod saving;
 mod state;
+mod waiting;
 
 pub(crate) use state::{App, FIRST_PICTURE_WAIT};

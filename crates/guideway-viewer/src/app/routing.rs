@@ -34,9 +34,8 @@ impl App {
         match action {
             Action::Command(command) => self.perform(command, ctx),
             Action::Edit(task) => self.edit(task),
-            Action::RenameVehicleType { edit, old, new } => {
-                self.rename_vehicle_type(edit, &old, &new);
-            }
+            Action::RenameVehicleType(edit, rename) => self.rename_vehicle_type(edit, rename),
+            Action::VehicleTypeRenamed(rename) => self.follow_rename(&rename),
             Action::ShowGroup(request) => self.show_group(request),
             Action::SelectByQuery(mode) => self.select_by_query(mode),
             Action::Search => self.find.search(self.files.document(), repaint),
@@ -92,6 +91,14 @@ impl App {
 
     /// Runs a command of a menu or shortcut.
     pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
+        if self.postpone(command) {
+            return;
+        }
+        self.perform_now(command, ctx);
+    }
+
+    /// Runs a command, although others may wait for the document.
+    pub(super) fn perform_now(&mut self, command: Command, ctx: &Context) {
         if command != Command::Cancel {
             let typed = self.properties.commit();
             self.apply_all(typed, ctx);
@@ -284,6 +291,13 @@ impl App {
 
     /// Routes a pointer event to the tools.
     pub(super) fn point(&mut self, event: PointerEvent) {
+        if !self.postpone_pointer(event) {
+            self.point_now(event);
+        }
+    }
+
+    /// Routes a pointer event to the tools, although others may wait for the document.
+    pub(super) fn point_now(&mut self, event: PointerEvent) {
         if let PointerEvent::Clicked(at_px, _) = event
             && self.bottom.picks_places()
         {

@@ -6,12 +6,14 @@ use std::time::Duration;
 use guideway_document::{Document, Group};
 
 use super::open_project::{OpenProject, ProjectReader};
+use super::waiting::WaitingInput;
+use crate::action::TypeRename;
 use crate::backdrop::{FloorPlanLayer, PlanEditor, SweptAreasLayer};
 use crate::background::RepaintHandle;
 use crate::canvas::Canvas;
 use crate::command::ContextPlace;
 use crate::display_settings::DisplaySettings;
-use crate::editing::EDIT_WAIT;
+use crate::editing::{EDIT_WAIT, EditOutcome};
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
 use crate::language::{Language, set_language};
@@ -68,6 +70,13 @@ pub(crate) struct App {
     pub(crate) writer: FileWriter,
     /// The question of the write in progress, asked if its file is there.
     pub(super) question_of_write: Option<Question>,
+    /// Renames of vehicle types in progress.
+    pub(super) renames: Vec<(EditOutcome, TypeRename)>,
+    pub(super) waiting: WaitingInput,
+    /// True if a text field had the focus at the end of the last frame.
+    pub(super) had_field: bool,
+    /// True until the walk over the events of a frame reaches the Escape that left a field.
+    pub(super) has_field_until_escape: bool,
     pub(crate) clipboard: Clipboard,
     pub(super) preferences_file: PreferencesFile,
     pub(crate) window_place: WindowPlace,
@@ -125,6 +134,10 @@ impl App {
             adapter: String::new(),
             writer: FileWriter::default(),
             question_of_write: None,
+            renames: Vec::new(),
+            waiting: WaitingInput::default(),
+            had_field: false,
+            has_field_until_escape: false,
             clipboard: Clipboard::default(),
             preferences_file,
             window_place: preferences.window,

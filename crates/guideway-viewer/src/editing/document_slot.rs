@@ -33,6 +33,8 @@ pub(crate) struct DocumentSlot {
 struct BackgroundEdit {
     task: Option<BackgroundTask<Returned>>,
     queued: Vec<EditTask>,
+    /// True if elements were selected in the document that the edit has.
+    had_elements_selected: bool,
     /// A copy of the layout for the next edit: see [`DocumentSlot::expect_edit`].
     layout_copy: Option<BackgroundTask<LayoutCopy>>,
 }
@@ -69,6 +71,11 @@ impl DocumentSlot {
     /// Returns `true` if an edit has the document.
     pub(crate) fn is_editing(&self) -> bool {
         self.edit.task.is_some()
+    }
+
+    /// Returns `true` if elements were selected before the edit that has the document.
+    pub(crate) fn had_elements_selected(&self) -> bool {
+        self.edit.had_elements_selected
     }
 
     /// Returns `true` if the overlay's task reads the document.
@@ -132,6 +139,7 @@ impl DocumentSlot {
         let Some(document) = self.document.take() else {
             return;
         };
+        self.edit.had_elements_selected = document.selected().has_elements();
         let journal = std::mem::take(&mut self.journal);
         let mut both = Box::new((document, journal));
         let (overlay, copy) = (self.overlay.abandon(), self.edit.layout_copy.take());

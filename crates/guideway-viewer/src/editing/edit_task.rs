@@ -1,5 +1,6 @@
 //! One edit of a document, as a closure that can run on another thread.
 
+use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::time::Duration;
 
 use guideway_document::Document;
@@ -56,6 +57,17 @@ impl EditTask {
         }))
     }
 
+    /// The same edit, whose asker learns how it ends, and tells the user if it is refused.
+    pub(crate) fn with_outcome(self) -> (Self, EditOutcome) {
+        let (send, outcome) = mpsc::channel();
+        let told = Self(Box::new(move |document, journal| {
+            // The asker may not wait any more.
+            let _ = send.send(self.run(document, journal));
+            Ok(())
+        }));
+        (told, EditOutcome(outcome))
+    }
+
     /// Takes back the edit that is shown, as any other task does.
     pub(crate) fn end_preview() -> Self {
         Self::view_change(|_| {})
@@ -67,5 +79,20 @@ impl EditTask {
     /// The notice of a refused edit.
     pub(super) fn run(self, document: &mut Document, journal: &mut Journal) -> Result<(), Notice> {
         (self.0)(document, journal)
+    }
+}
+
+/// The end of an edit, for the one who asked for it.
+pub(crate) struct EditOutcome(Receiver<Result<(), Notice>>);
+
+impl EditOutcome {
+    /// The result, once there is one. An edit that never ran, since its document was replaced, is
+    /// none that was refused.
+    pub(crate) fn poll(&self) -> Option<Result<(), Notice>> {
+        match self.0.try_recv() {
+            Ok(result) => Some(result),
+            Err(TryRecvError::Disconnected) => Some(Ok(())),
+            Err(TryRecvError::Empty) => None,
+        }
     }
 }

@@ -22,7 +22,7 @@ mod unsaved_work;
 
 pub(crate) use background_tasks::{BackgroundTasks, TaskEvent};
 pub(crate) use document_slot::{DocumentSlot, EditReturn};
-pub(crate) use edit_task::{EDIT_WAIT, EditTask};
+pub(crate) use edit_task::{EDIT_WAIT, EditOutcome, EditTask};
 pub(crate) use findings::{Findings, MarkedSeverities, SEVERITIES};
 pub(crate) use journal::Journal;
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::{By, Queryable};
-use guideway_document::{Group, PropertyRef};
+use guideway_document::{Document, Group, LevelFact, PathSet, PropertyRef};
 use guideway_layout::Value;
 use guideway_scene::Table;
 
@@ -213,4 +213,60 @@ fn a_renamed_vehicle_type_is_renamed_wherever_it_is_named() {
     window.key(Modifiers::COMMAND, Key::Z);
     assert_eq!(speed(&mut window, "tug"), Some(1.5));
     assert_eq!(of_node(&mut window), ["tug"]);
+}
+
+#[test]
+fn a_refused_name_stays_in_the_question_with_its_reason() {
+    let mut layout = lanes(2);
+    layout.paths.vehicle_types_mut().set(0, &["fork", "tug"]);
+    let mut window = layers(TestWindow::showing(layout));
+    window.app().tools.template.vehicle_types = vec![("tug".into(), None)];
+    click(&mut window, "Vehicle types");
+    window.harness.run_steps(20);
+    click(&mut window, "tug");
+    window.key(NONE, Key::F2);
+    window.answer("fork");
+    window.harness.run_steps(3);
+    let question = window
+        .harness
+        .query_by_label("New name of the vehicle type");
+    assert!(question.is_some());
+    assert!(
+        window.app().dialogs.notices.texts().is_empty(),
+        "it is said there"
+    );
+    let field = By::new().role(Role::TextInput).value("fork");
+    assert!(window.harness.query_all(field).next().is_some(), "its text");
+    assert_eq!(types(&mut window), ["fork", "tug"]);
+    let of_new = |window: &mut TestWindow| window.app().tools.template.vehicle_types.clone();
+    assert_eq!(of_new(&mut window), [("tug".to_owned(), None)]);
+    window.answer("tugger");
+    window.harness.run_steps(3);
+    assert_eq!(types(&mut window), ["fork", "tugger"]);
+    assert_eq!(of_new(&mut window), [("tugger".to_owned(), None)]);
+    let lane = window.at(5.0, 0.0);
+    window.click(lane);
+    window.key(NONE, Key::F2);
+    window.answer("lane 1");
+    window.harness.run_steps(3);
+    let refused = window.harness.query_by_label_contains("lane 1");
+    assert!(refused.is_some() && window.harness.query_by_label("New name").is_some());
+}
+
+#[test]
+fn levels_stand_by_height_and_a_typed_height_moves_one() {
+    let mut window = layers(TestWindow::showing(two_levels()));
+    let is_above = |window: &TestWindow, above: &str, below: &str| {
+        let top = |label| window.harness.get_by_label(label).rect().min.y;
+        top(above) < top(below)
+    };
+    assert!(is_above(&window, "hall", "upper"), "by name");
+    for (height, upper_is_above) in [(Some(4.0), true), (None, false)] {
+        window.edit(move |document: &mut Document| {
+            let upper = PathSet::from_iter([1]);
+            document.set_level_fact(&upper, LevelFact::Elevation(height))
+        });
+        window.harness.run_steps(3);
+        assert_eq!(is_above(&window, "upper", "hall"), upper_is_above);
+    }
 }

@@ -236,6 +236,8 @@ fn press(window: &mut TestWindow, random: &mut RandomSource) -> &'static str {
     let asks = matches!(command, Command::Array | Command::Fillet | Command::Rename);
     if asks && random.below(2) == 0 {
         window.answer(TEXTS[random.below(TEXTS.len())]);
+        // A refused answer stays in its question.
+        window.app().dialogs.close();
     }
     command.label()
 }

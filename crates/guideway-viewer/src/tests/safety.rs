@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, ViewportCommand, ViewportId};
 use egui_kittest::kittest::Queryable;
 use guideway_document::Document;
 use guideway_spline::Point;
@@ -14,7 +14,7 @@ use crate::editing::entries_on_disk;
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 
-fn key(key: Key) -> [Event; 2] {
+pub(super) fn key(key: Key) -> [Event; 2] {
     [true, false].map(|pressed| Event::Key {
         key,
         physical_key: None,
@@ -39,12 +39,12 @@ fn click(at: Pos2) -> [Event; 3] {
 }
 
 /// Sends events that all come before one slow frame.
-fn in_one_frame(window: &mut TestWindow, events: impl IntoIterator<Item = Event>) {
+pub(super) fn in_one_frame(window: &mut TestWindow, events: impl IntoIterator<Item = Event>) {
     window.harness.input_mut().events.extend(events);
     window.harness.run_steps(3);
 }
 
-fn ids(document: &Document) -> Vec<&str> {
+pub(super) fn ids(document: &Document) -> Vec<&str> {
     let layout = document.layout();
     let rows = document.scene().draw_order().iter();
     let mut ids: Vec<_> = rows.map(|&row| layout.paths.id(row as usize)).collect();
@@ -52,7 +52,7 @@ fn ids(document: &Document) -> Vec<&str> {
     ids
 }
 
-fn is_shown(window: &TestWindow, label: &str) -> bool {
+pub(super) fn is_shown(window: &TestWindow, label: &str) -> bool {
     window.harness.query_by_label(label).is_some()
 }
 
@@ -282,4 +282,40 @@ fn second_window_of_a_file_leaves_the_journal_to_the_first() {
     assert_eq!(left(&site), work);
     drop(second);
     assert_eq!(left(&site), work, "the first one's work is still there");
+}
+
+#[test]
+fn quitting_saves_all_files_first_or_discards_their_changes() {
+    for (answer, left) in [("Save and quit", 0), ("Quit without saving", 3)] {
+        let disk = TestServices::with([("a.arrow", lanes(3)), ("b.arrow", lanes(3))]);
+        let mut window = TestWindow::open(&disk, &["a.arrow", "b.arrow"], Some("cpu"));
+        window.wait(|app| app.is_settled());
+        for file in 0..2 {
+            window.app().files.activate(file);
+            window.key(CTRL, Key::A);
+            window.key(NONE, Key::Delete);
+        }
+        window.key(CTRL, Key::Q);
+        window.harness.get_by_label(answer).click();
+        let closes = |window: &TestWindow| {
+            let root = window
+                .harness
+                .output()
+                .viewport_output
+                .get(&ViewportId::ROOT);
+            root.is_some_and(|root| root.commands.contains(&ViewportCommand::Close))
+        };
+        for _ in 0..5_000 {
+            window.harness.step();
+            if closes(&window) {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        assert!(closes(&window), "{answer}");
+        for name in ["a.arrow", "b.arrow"] {
+            let files = window.disk.files.lock().unwrap();
+            assert_eq!(files[Path::new(name)].paths.len(), left, "{answer}: {name}");
+        }
+    }
 }

@@ -5,8 +5,8 @@ use guideway_document::{Document, LevelFacts};
 use guideway_layout::{ElementKind, PROPERTIES, Property, Value};
 
 use crate::action::{Action, GroupRequest};
-use crate::editing::EditTask;
-use crate::language::{say, t};
+use crate::editing::{EditOutcome, EditTask};
+use crate::language::{say, t, translated};
 use crate::panels::properties::{FieldKind, TypedValue};
 use crate::units::shown_unit;
 
@@ -30,6 +30,8 @@ struct OpenGroup {
     properties: Vec<(&'static Property, String)>,
     /// Identifiers of the others.
     others: Vec<String>,
+    /// The edit of the answer, while it runs.
+    outcome: Option<EditOutcome>,
     error: Option<String>,
     /// True if the first field takes the focus in the next frame.
     wants_focus: bool,
@@ -57,6 +59,7 @@ impl GroupDialog {
             level_facts: Default::default(),
             properties,
             others,
+            outcome: None,
             error: None,
             wants_focus: true,
         });
@@ -70,6 +73,21 @@ impl GroupDialog {
         self.open = None;
     }
 
+    /// Closes the dialog when the edit of its answer is complete. One that is refused stays, with
+    /// the reason.
+    pub(super) fn poll(&mut self) {
+        let Some(open) = &mut self.open else {
+            return;
+        };
+        match open.outcome.as_ref().and_then(EditOutcome::poll) {
+            None => {}
+            Some(Ok(())) => self.open = None,
+            Some(Err(error)) => {
+                (open.outcome, open.error, open.wants_focus) = (None, Some(error), true);
+            }
+        }
+    }
+
     /// Shows the dialog, and returns the edit of its answer. A wrong answer stays, with its error.
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Action> {
         let open = self.open.as_mut()?;
@@ -77,15 +95,17 @@ impl GroupDialog {
         let modal = Modal::new(Id::unique("group")).show(ctx, |ui| answer = open.content(ui));
         match answer {
             None if modal.should_close() => self.open = None,
-            None => {}
             Some(false) => self.open = None,
-            Some(true) => match open.edit() {
+            Some(true) if open.outcome.is_none() => match open.edit() {
                 Ok(edit) => {
-                    self.open = None;
+                    let (edit, outcome) = edit.with_outcome();
+                    (open.outcome, open.error) = (Some(outcome), None);
+                    ctx.request_repaint();
                     return Some(Action::Edit(edit));
                 }
                 Err(error) => (open.error, open.wants_focus) = (Some(error), true),
             },
+            None | Some(true) => {}
         }
         None
     }
@@ -120,7 +140,7 @@ impl OpenGroup {
             }
         });
         if let Some(error) = &self.error {
-            ui.colored_label(ui.visuals().error_fg_color, error);
+            ui.colored_label(ui.visuals().error_fg_color, translated(error));
         }
         let mut answer = enters.then_some(true);
         ui.horizontal(|ui| {

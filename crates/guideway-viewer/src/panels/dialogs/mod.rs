@@ -103,6 +103,12 @@ impl Dialogs {
             || recover_dialog::undecided(files).is_some()
     }
 
+    /// Closes the dialogs whose answers are in the document now, and returns what follows.
+    pub(crate) fn poll(&mut self) -> Vec<Action> {
+        self.group.poll();
+        self.text.poll().into_iter().collect()
+    }
+
     /// Shows the open dialogs and returns the actions of answers.
     pub(crate) fn show(
         &mut self,

@@ -1,10 +1,14 @@
 //! The one-line question for a number or a name that a command needs.
 
-use eframe::egui::{Context, Id, Key, Modal, TextEdit};
+use eframe::egui::{Button, Context, Id, Key, Modal, TextEdit};
 
-use crate::action::Action;
-use crate::language::t;
+use crate::action::{Action, TypeRename};
+use crate::editing::EditOutcome;
+use crate::language::{t, translated};
 use crate::selection::{TextQuestion, prompted_edit};
+
+/// Width of the field, in points.
+const WIDTH: f32 = 280.0;
 
 /// The dialog; open while it has a question.
 #[derive(Default)]
@@ -14,7 +18,9 @@ pub(crate) struct TextDialog {
 
 struct OpenQuestion {
     question: TextQuestion,
-    /// The mistake in the text.
+    /// The edit of the answer, while it runs.
+    outcome: Option<EditOutcome>,
+    /// The mistake in the text, or why the edit was refused.
     error: Option<String>,
     /// True if the field takes the focus in the next frame.
     wants_focus: bool,
@@ -24,6 +30,7 @@ impl TextDialog {
     pub(crate) fn ask(&mut self, question: TextQuestion) {
         self.open = Some(OpenQuestion {
             question,
+            outcome: None,
             error: None,
             wants_focus: true,
         });
@@ -37,25 +44,45 @@ impl TextDialog {
         self.open = None;
     }
 
+    /// Closes the question when the edit of its answer is complete. One that is refused stays, with
+    /// the reason.
+    pub(super) fn poll(&mut self) -> Option<Action> {
+        let open = self.open.as_mut()?;
+        let result = open.outcome.as_ref()?.poll()?;
+        open.outcome = None;
+        if let Err(error) = result {
+            (open.error, open.wants_focus) = (Some(error), true);
+            return None;
+        }
+        let TextQuestion {
+            text, renamed_type, ..
+        } = self.open.take()?.question;
+        let new = text.trim().to_owned();
+        renamed_type.map(|old| Action::VehicleTypeRenamed(TypeRename { old, new }))
+    }
+
     /// Shows the question, and returns the edit of its answer. A wrong answer stays, with its
     /// error.
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Action> {
         let open = self.open.as_mut()?;
         let (mut is_answered, mut is_cancelled) = (false, false);
+        let is_waiting = open.outcome.is_some();
         let modal = Modal::new(Id::unique("text question")).show(ctx, |ui| {
+            ui.set_max_width(WIDTH);
             ui.strong(open.question.command.name());
             let label = ui.label(&open.question.label);
-            let field = TextEdit::singleline(&mut open.question.text).desired_width(280.0);
-            let field = ui.add(field).labelled_by(label.id);
+            let field = TextEdit::singleline(&mut open.question.text).desired_width(WIDTH);
+            let field = ui.add_enabled(!is_waiting, field).labelled_by(label.id);
             if std::mem::take(&mut open.wants_focus) {
                 field.request_focus();
             }
             if let Some(error) = &open.error {
-                ui.colored_label(ui.visuals().error_fg_color, error);
+                ui.colored_label(ui.visuals().error_fg_color, translated(error));
             }
             ui.horizontal(|ui| {
                 let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-                is_answered = ui.button(t("OK")).clicked() || enters;
+                let ok = ui.add_enabled(!is_waiting, Button::new(t("OK")));
+                is_answered = ok.clicked() || enters;
                 is_cancelled = ui.button(t("Cancel")).clicked();
             });
         });
@@ -63,15 +90,15 @@ impl TextDialog {
             self.open = None;
             return None;
         }
-        if !is_answered {
+        if !is_answered || is_waiting {
             return None;
         }
         match prompted_edit(open.question.command, &open.question.text) {
             Ok(edit) => {
-                let TextQuestion {
-                    text, renamed_type, ..
-                } = self.open.take()?.question;
-                Some(Action::of_field(edit, renamed_type, &text))
+                let (edit, outcome) = edit.with_outcome();
+                (open.outcome, open.error) = (Some(outcome), None);
+                ctx.request_repaint();
+                Some(Action::Edit(edit))
             }
             Err(error) => {
                 (open.error, open.wants_focus) = (Some(error), true);

@@ -9,7 +9,7 @@ use guideway_scene::Table;
 
 use super::field::{FieldKind, MAX_COMPARED};
 use super::typed_value::TypedValue;
-use crate::action::Action;
+use crate::action::{Action, TypeRename};
 use crate::editing::EditTask;
 use crate::language::t;
 
@@ -70,7 +70,13 @@ impl Draft {
         }
         let renamed = self.target.vehicle_type().map(str::to_owned);
         let edit = self.target.edit(&self.text)?;
-        Ok(Some(Action::of_field(edit, renamed, &self.text)))
+        Ok(Some(match renamed {
+            Some(old) => {
+                let new = self.text.trim().to_owned();
+                Action::RenameVehicleType(edit, TypeRename { old, new })
+            }
+            None => Action::Edit(edit),
+        }))
     }
 }
 
