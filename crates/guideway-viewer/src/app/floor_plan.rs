@@ -31,7 +31,7 @@ impl App {
         let LayerContext {
             services, repaint, ..
         } = &self.context;
-        self.floor_plan.set(text, services, repaint);
+        self.floor_plan.replace(text, services, repaint);
     }
 
     /// Shows a file as the floor plan. The dialog opens for an image, whose scale the user has to
@@ -53,7 +53,8 @@ impl App {
         let LayerContext {
             services, repaint, ..
         } = &self.context;
-        self.floor_plan.set(&placement.text(), services, repaint);
+        self.floor_plan
+            .replace(&placement.text(), services, repaint);
     }
 
     /// Shows the floor plan at another place.

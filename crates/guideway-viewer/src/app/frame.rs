@@ -254,10 +254,10 @@ impl App {
         self.refresh_findings(ctx);
         self.update_tools();
         self.swept_areas.poll(ctx);
-        if let Some(bounds) = self.floor_plan.poll(ctx)
-            && self.files.layers().is_empty()
-        {
-            self.canvas.camera.fit(bounds);
+        match self.floor_plan.poll(ctx) {
+            Some(Ok(bounds)) if self.files.layers().is_empty() => self.canvas.camera.fit(bounds),
+            Some(Err(error)) => self.dialogs.notices.add(error),
+            _ => {}
         }
         self.poll_files(ctx);
     }

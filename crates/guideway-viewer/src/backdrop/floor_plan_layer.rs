@@ -67,6 +67,8 @@ pub(crate) struct FloorPlanLayer {
     reading: Option<BackgroundTask<Result<ReadyPlan, UserError>>>,
     ready: Option<Arc<ReadyPlan>>,
     read_error: Option<String>,
+    /// The plan that this one replaces, until this one is read.
+    before: Option<Box<FloorPlanLayer>>,
     /// True on a dark background.
     is_dark: bool,
     /// Its content is whether the background is dark.
@@ -85,6 +87,7 @@ impl Default for FloorPlanLayer {
             reading: None,
             ready: None,
             read_error: None,
+            before: None,
             is_dark: false,
             picture: BackgroundPicture::default(),
         }
@@ -120,6 +123,21 @@ impl FloorPlanLayer {
         self.text = text.to_owned();
         self.is_visible = true;
         self.read(services, repaint);
+    }
+
+    /// Starts to read another plan, which takes the place of the present one if it can be read.
+    pub(crate) fn replace(
+        &mut self,
+        text: &str,
+        services: &Arc<dyn AppServices>,
+        repaint: &RepaintHandle,
+    ) {
+        let is_dark = self.is_dark;
+        let before = std::mem::take(self);
+        self.is_dark = is_dark;
+        self.set(text, services, repaint);
+        let has_plan = before.ready.is_some() && !self.is_empty();
+        self.before = has_plan.then(|| Box::new(before));
     }
 
     /// Shows the plan at another place. The old one stays until it is read anew.
@@ -190,8 +208,9 @@ impl FloorPlanLayer {
         self.picture.shown()
     }
 
-    /// Takes finished tasks. Returns the bounds of a plan that was just read.
-    pub(crate) fn poll(&mut self, ctx: &Context) -> Option<Bounds<f64>> {
+    /// Takes finished tasks. Returns the bounds of a plan that was just read for the first time, or
+    /// why it cannot be read.
+    pub(crate) fn poll(&mut self, ctx: &Context) -> Option<Result<Bounds<f64>, String>> {
         self.picture.poll(ctx, "floor plan");
         let result = self.reading.as_ref().and_then(BackgroundTask::result)?;
         self.reading = None;
@@ -200,13 +219,17 @@ impl FloorPlanLayer {
             Ok(ready) => {
                 // It shows the plan at its old place.
                 self.picture.clear();
-                self.read_error = None;
+                (self.read_error, self.before) = (None, None);
                 let bounds = self.ready.insert(Arc::new(ready)).plan.bounds();
-                bounds.filter(|_| self.is_new)
+                bounds.filter(|_| self.is_new).map(Ok)
             }
             Err(error) => {
-                self.read_error = Some(error.to_string());
-                None
+                let error = error.to_string();
+                match self.before.take() {
+                    Some(before) => *self = *before,
+                    None => self.read_error = Some(error.clone()),
+                }
+                Some(Err(error))
             }
         }
     }
@@ -244,7 +267,7 @@ mod tests {
         layer.set(text, &services, &repaint);
         let mut bounds = None;
         for _ in 0..5_000 {
-            bounds = bounds.or(layer.poll(&Context::default()));
+            bounds = bounds.or(layer.poll(&Context::default()).and_then(Result::ok));
             if !layer.is_reading() {
                 break;
             }

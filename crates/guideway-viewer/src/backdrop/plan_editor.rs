@@ -26,6 +26,8 @@ pub(crate) struct PlanEditor {
     pub(crate) task: PlanTask,
     /// The typed distance of the two points, in meters.
     pub(crate) distance_m: f64,
+    /// True if the field of the distance takes the focus in the next frame.
+    pub(crate) asks_distance: bool,
 }
 
 impl PlanEditor {
@@ -81,6 +83,7 @@ impl PlanEditor {
                 points.push(world(at_px));
                 if let [from, to] = points[..] {
                     self.distance_m = from.distance(to);
+                    self.asks_distance = true;
                 }
             }
             // The tools learn where the pointer is.

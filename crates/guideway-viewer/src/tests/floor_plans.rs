@@ -4,7 +4,7 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
 use super::services::lanes;
-use super::test_window::TestWindow;
+use super::test_window::{TestWindow, has_notice};
 use crate::backdrop::PlanTask;
 use crate::command::Command;
 
@@ -51,6 +51,24 @@ fn two_points_of_known_distance_scale_the_plan() {
 }
 
 #[test]
+fn distance_is_typed_right_after_the_second_click() {
+    let mut window = with_plan();
+    window.harness.get_by_label("Scale by two points").click();
+    window.harness.run_steps(3);
+    for x in [0.0, 8.0] {
+        let at = window.at(x, 3.0);
+        window.click(at);
+    }
+    let measured = window.app().plan_editor.distance_m;
+    window.harness.run_steps(2);
+    window.answer(&format!("{}", 2.0 * measured));
+    let text = placed(&mut window);
+    assert!(text.starts_with("hall.png@px-per-m=10,"), "{text}");
+    assert_eq!(window.app().plan_editor.task, PlanTask::None);
+    assert_eq!(window.document().layout().paths.len(), 3);
+}
+
+#[test]
 fn drag_moves_the_plan_and_escape_takes_it_back() {
     let mut window = with_plan();
     window.harness.get_by_label("Move by hand").click();
@@ -80,4 +98,22 @@ fn locked_plan_stays() {
     let (from, to) = (window.at(2.0, 3.0), window.at(5.0, 1.0));
     window.drag(from, to);
     assert_eq!(placed(&mut window), before);
+}
+
+#[test]
+fn plan_that_cannot_be_read_is_told_and_the_present_one_stays() {
+    let mut window = with_plan();
+    window.harness.get_by_label("Move by hand").click();
+    window.harness.run_steps(3);
+    let (from, to) = (window.at(2.0, 3.0), window.at(5.0, 1.0));
+    window.drag(from, to);
+    window.wait(|app| !app.floor_plan.is_reading());
+    let before = placed(&mut window);
+    window.key(NONE, Key::Escape);
+    window.key(Modifiers::COMMAND, Key::L);
+    window.app().dialogs.prompt.open_mut().unwrap().text = "hall.bmp".into();
+    window.key(NONE, Key::Enter);
+    window.wait(|app| has_notice(app, "not a floor plan"));
+    assert_eq!(placed(&mut window), before);
+    window.wait(|app| app.floor_plan.shown().is_some());
 }

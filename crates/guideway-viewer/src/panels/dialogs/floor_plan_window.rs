@@ -1,7 +1,7 @@
 //! The dialog of the floor plan: size, place, opacity, lock, and the tasks by hand.
 
 use eframe::egui::{
-    Align2, Button, Context, DragValue, Grid, Label, Pos2, Response, Slider, Ui, Window,
+    Align2, Button, Context, DragValue, Grid, Key, Label, Pos2, Response, Slider, Ui, Window,
 };
 use guideway_spline::Point;
 
@@ -180,11 +180,16 @@ fn tasks(ui: &mut Ui, editor: &mut PlanEditor, plan: &FloorPlanLayer, actions: &
     ui.horizontal(|ui| {
         let label = ui.label(t("Their distance"));
         let distance = DragValue::new(&mut editor.distance_m).suffix(" m");
-        ui.add(distance.range(0.0..=MAX_M).speed(0.05).max_decimals(4))
-            .labelled_by(label.id);
+        let distance = distance.range(0.0..=MAX_M).speed(0.05).max_decimals(4);
+        let field = ui.add(distance).labelled_by(label.id);
+        if std::mem::take(&mut editor.asks_distance) {
+            field.request_focus();
+        }
+        let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let calibrated = editor.calibrated(plan);
         let button = Button::new(t("Apply"));
-        if ui.add_enabled(calibrated.is_some(), button).clicked()
+        let applies = ui.add_enabled(calibrated.is_some(), button).clicked();
+        if (applies || enters)
             && let Some(placement) = calibrated
         {
             actions.push(Action::PlaceFloorPlan(placement));
