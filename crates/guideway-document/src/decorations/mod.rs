@@ -13,12 +13,14 @@
 //! | `legend` | scene legend, picture size, style | draw list: swatches and labels |
 //! | `place_marks` | document, view, options | [`Marks`]: positions of arrows, symbols and labels |
 //! | `draw_marks` | marks, style | draw list: arrows, symbols and labels |
+//! | `covered_texts` | draw lists on top of each other | those without the texts below others |
 //! | `outline` | paths, view | [`Outline`]: center lines of selected paths |
 //! | `handles` | document, view | [`Handle`]s: control points of selected paths |
 //!
 //! `arrows`, `labels`, `line_mask` and `declutter` position marks.
 
 mod arrows;
+mod covered_texts;
 mod declutter;
 mod draw_marks;
 mod grid;
@@ -32,6 +34,7 @@ mod place_marks;
 mod scale_bar;
 mod style;
 
+pub use covered_texts::hide_covered_texts;
 pub use grid::{grid, grid_step_m};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};

@@ -7,10 +7,10 @@ use eframe::egui::{
     Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureId, Vec2, pos2,
 };
 use guideway_document::decorations::{
-    Corner, DecorationStyle, handles, legend, outline, scale_bar,
+    Corner, DecorationStyle, handles, hide_covered_texts, legend, outline, scale_bar,
 };
 use guideway_document::{Document, PathSet};
-use guideway_scene::{Legend, View};
+use guideway_scene::{DrawList, Legend, View};
 use guideway_spline::Point;
 
 use super::draft::Draft;
@@ -106,9 +106,12 @@ impl CanvasPainter<'_> {
             let shown = shown.map(|shown| (shown.texture_id(), &shown.view));
             self.paint_picture(painter, shown, layer.look.opacity);
         }
-        self.paint_others(painter, &style);
-        if let Some(layer) = self.files.active().filter(|layer| layer.is_visible) {
-            self.paint_overlay(painter, layer, &style);
+        let mut marks = self.marks(&style);
+        let active = self.files.active().filter(|layer| layer.is_visible);
+        let of_active = active.and_then(|_| marks.pop());
+        self.paint_others(painter, &marks);
+        if let (Some(layer), Some(marks)) = (active, of_active) {
+            self.paint_overlay(painter, layer, &marks);
         }
         self.paint_tools(painter);
         self.paint_findings(painter);
@@ -175,20 +178,29 @@ impl CanvasPainter<'_> {
         }
     }
 
+    /// The marks of the visible files, the active one last.
+    fn marks(&self, style: &DecorationStyle) -> Vec<DrawList> {
+        let of_layer = |layer: &Layer| {
+            let overlay = layer.slot.overlay().last();
+            overlay.map_or_else(DrawList::default, |overlay| {
+                let place = |pixel| self.placed(&overlay.view, pixel);
+                overlay.marks.draw(style, place)
+            })
+        };
+        let mut marks: Vec<DrawList> = self.files.visible().map(of_layer).collect();
+        hide_covered_texts(&mut marks);
+        marks
+    }
+
     /// Paints the marks of the files that are not active, and what the pointer means in one.
-    fn paint_others(&self, painter: &Painter, style: &DecorationStyle) {
+    fn paint_others(&self, painter: &Painter, marks: &[DrawList]) {
         let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
         let active = self.files.active().map(Layer::path);
         let others = self.files.visible().filter(|l| Some(l.path()) != active);
-        for layer in others {
+        for (layer, marks) in others.zip(marks) {
+            paint_draw_list(painter, self.screen, marks);
             if let Some(overlay) = layer.slot.overlay().last() {
                 let place = |pixel| self.placed(&overlay.view, pixel);
-                let mut marks = overlay.marks.draw(style, place);
-                if self.changes.is_some() {
-                    // A compared file has the names of the active one at the same places.
-                    marks.texts.clear();
-                }
-                paint_draw_list(painter, self.screen, &marks);
                 if let Some(members) = &overlay.highlighted {
                     let to_screen = |pixel| self.screen.point(place(pixel));
                     paint_glowing(painter, &members.paths, stroke, to_screen);
@@ -215,7 +227,7 @@ impl CanvasPainter<'_> {
     }
 
     /// Paints outlines and marks of the active file.
-    fn paint_overlay(&self, painter: &Painter, layer: &Layer, style: &DecorationStyle) {
+    fn paint_overlay(&self, painter: &Painter, layer: &Layer, marks: &DrawList) {
         let Some(overlay) = layer.slot.overlay().last() else {
             return;
         };
@@ -230,7 +242,7 @@ impl CanvasPainter<'_> {
             .radius_px(None, view.px_per_m());
         let stroke = |color| Stroke::new(MIN_OUTLINE_WIDTH.max((radius_px / scale) as f32), color);
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
-        paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
+        paint_draw_list(painter, screen, marks);
         if let Gesture::Move { by_m, .. } = self.tools.gesture() {
             // A moving selection stands out by itself, without a glow.
             let by = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway_document::decorations::{Corner, marks, scale_bar};
+use guideway_document::decorations::{Corner, hide_covered_texts, marks, scale_bar};
 use guideway_layout::{UserError, shown_path};
 use guideway_scene::{DrawList, FrameSize, RenderError, Style, View};
 
@@ -53,15 +53,19 @@ impl PictureContent<'_> {
 
     /// Arrows, symbols and labels of all visible files, and the scale bar.
     fn marks(&self) -> DrawList {
-        let mut list = DrawList::default();
         let style = self.settings.decoration_style(self.px_per_point);
         let options = self.settings.mark_options(self.px_per_point);
-        for layer in self.files.visible() {
-            if let Some(document) = layer.document() {
-                let options = layer.look.mark_options(options, Some(document));
-                let marks = marks(document, &self.view, &options);
-                list.append(marks.draw(&style, |at_px| at_px));
-            }
+        let of_layer = |layer: &Layer| {
+            let document = layer.document()?;
+            let options = layer.look.mark_options(options, Some(document));
+            let marks = marks(document, &self.view, &options);
+            Some(marks.draw(&style, |at_px| at_px))
+        };
+        let mut drawings: Vec<_> = self.files.visible().filter_map(of_layer).collect();
+        hide_covered_texts(&mut drawings);
+        let mut list = DrawList::default();
+        for drawing in drawings {
+            list.append(drawing);
         }
         list.append(scale_bar(&self.view, &style, Corner::LowerLeft));
         list

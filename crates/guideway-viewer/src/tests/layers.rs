@@ -8,7 +8,7 @@ use guideway_scene::Rgba;
 use guideway_spline::Affine;
 
 use super::services::{TestServices, lanes};
-use super::test_window::TestWindow;
+use super::test_window::{TestWindow, has_notice};
 use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -185,4 +185,29 @@ fn view_shows_all_files_until_the_user_moves_it() {
     window.app().open_any("far.arrow".into());
     window.wait(|app| app.files.layers().len() == 3 && app.document().is_some());
     assert_eq!(window.app().canvas.camera.view(), before);
+}
+
+#[test]
+fn names_of_a_lower_file_do_not_cover_those_of_the_upper_one() {
+    let mut below = lanes(2);
+    let ids = [(0, "b0"), (1, "b1"), (2, "b2"), (3, "b3")];
+    below.nodes.set_ids(&ids);
+    let disk = TestServices::with([("below.arrow", below), ("above.arrow", lanes(2))]);
+    let mut window = TestWindow::open(&disk, &["below.arrow", "above.arrow"], Some("cpu"));
+    window.wait(|app| app.is_settled());
+    window.key(NONE, Key::F);
+    window.wait(|app| app.is_settled());
+    window.key(Modifiers::COMMAND, Key::E);
+    window.app().dialogs.prompt.open_mut().unwrap().text = "both.png".into();
+    window.key(NONE, Key::Enter);
+    window.wait(|app| has_notice(app, "both.png"));
+    let pictures = window.disk.pictures.lock().unwrap();
+    let texts = pictures[0].1.marks.texts.iter();
+    let texts: Vec<&str> = texts.map(|line| &*line.text).collect();
+    assert!(texts.contains(&"n0 0"), "{texts:?}");
+    assert!(!texts.iter().any(|text| text.starts_with('b')), "{texts:?}");
+    let mut distinct = texts.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    assert_eq!(distinct.len(), texts.len(), "{texts:?}");
 }
