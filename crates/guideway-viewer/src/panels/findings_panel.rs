@@ -35,8 +35,9 @@ impl FindingsPanel {
         }
     }
 
-    /// The name of the tab, with the number of errors, warnings and notes in their colors.
-    pub(super) fn title(files: &OpenFiles, points: f32) -> WidgetText {
+    /// The name of the tab, with the number of errors, warnings and notes in their colors; of the
+    /// worst ones alone where there is little space.
+    pub(super) fn title(files: &OpenFiles, points: f32, is_short: bool) -> WidgetText {
         let findings = files.active().and_then(|layer| layer.tasks.findings());
         let counts = findings.map_or([0; 3], |findings| by_severity(&findings.diagnostics));
         let mut title = LayoutJob::default();
@@ -49,11 +50,11 @@ impl FindingsPanel {
             title.append(text, 0.0, format);
         };
         add(t("Findings"), Color32::PLACEHOLDER);
-        for (count, severity) in counts.into_iter().zip(SEVERITIES) {
-            if count > 0 {
-                let count = format!(" {}", grouped(count));
-                add(&count, severity_color(severity));
-            }
+        let counted = counts.into_iter().zip(SEVERITIES);
+        let counted = counted.filter(|(count, _)| *count > 0);
+        for (count, severity) in counted.take(if is_short { 1 } else { counts.len() }) {
+            let count = format!(" {}", grouped(count));
+            add(&count, severity_color(severity));
         }
         title.into()
     }

@@ -1,6 +1,9 @@
 //! The side panel: tabs with fixed places, one per part of the window.
 
-use eframe::egui::{CollapsingHeader, Rect, RichText, ScrollArea, TextWrapMode, Ui, UiBuilder};
+use eframe::egui::{
+    CollapsingHeader, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, UiBuilder,
+    WidgetText,
+};
 use guideway_document::{Document, Group};
 
 use super::findings_panel::FindingsPanel;
@@ -21,6 +24,8 @@ const MIN_WINDOW_WIDTH: f32 = 700.0;
 
 /// Size of the names of tabs.
 const TAB_POINTS: f32 = 12.0;
+/// Space beside the name of a tab, in points.
+const TAB_PADDING: f32 = 3.0;
 
 /// A tab of the side panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -144,12 +149,21 @@ impl SidePanel<'_> {
         ui.horizontal_wrapped(|ui| {
             // The names of all languages fit into one row of the panel's first width.
             ui.spacing_mut().item_spacing.x = 0.0;
-            ui.spacing_mut().button_padding.x = 3.0;
+            ui.spacing_mut().button_padding.x = TAB_PADDING;
+            let title = |tab: SideTab, is_short| match tab {
+                SideTab::Findings => FindingsPanel::title(self.files, TAB_POINTS, is_short),
+                _ => RichText::new(tab.name()).size(TAB_POINTS).into(),
+            };
+            // More findings must not push the tabs into a second row.
+            let widths = SideTab::ALL.map(|tab| {
+                let title: WidgetText = title(tab, false);
+                let wrap = Some(TextWrapMode::Extend);
+                let title = title.into_galley(ui, wrap, f32::INFINITY, TextStyle::Button);
+                title.size().x + 2.0 * TAB_PADDING
+            });
+            let is_short = widths.iter().sum::<f32>() > ui.available_width();
             for tab in SideTab::ALL {
-                let title = match tab {
-                    SideTab::Findings => FindingsPanel::title(self.files, TAB_POINTS),
-                    _ => RichText::new(tab.name()).size(TAB_POINTS).into(),
-                };
+                let title = title(tab, is_short);
                 ui.selectable_value(&mut self.tabs.tab, tab, title);
             }
         });

@@ -217,6 +217,30 @@ fn asks_before_discarding_unsaved_changes() {
     );
 }
 
+#[test]
+fn pictures_for_print_are_exported_by_their_keys() {
+    let mut window = TestWindow::showing(lanes(3));
+    let keys = [
+        (CTRL, Key::P, "site.pdf"),
+        (CTRL.plus(Modifiers::SHIFT), Key::E, "site.svg"),
+    ];
+    for (modifiers, key, name) in keys {
+        window.key(modifiers, key);
+        let prompt = window.app().dialogs.prompt.open_mut().unwrap();
+        assert_eq!(prompt.text, name);
+        window.key(NONE, Key::Enter);
+        window.wait(|app| has_notice(app, name));
+        assert!(
+            window
+                .disk
+                .files
+                .lock()
+                .unwrap()
+                .contains_key(Path::new(name))
+        );
+    }
+}
+
 /// A file that was dropped on the window.
 #[derive(Debug)]
 struct Dropped(PathBuf);

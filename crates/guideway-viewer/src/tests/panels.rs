@@ -16,6 +16,7 @@ use crate::LaunchOptions;
 use crate::app::App;
 use crate::command::Command;
 use crate::editing::EditTask;
+use crate::language::Language;
 use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -234,7 +235,7 @@ fn session(has_reader: bool) -> Vec<Vec<String>> {
                 document.select(second, guideway_document::SelectMode::Replace);
             }));
         },
-        |app, _| app.settings.language = Some(crate::language::Language::German),
+        |app, _| app.settings.language = Some(Language::German),
         |app, _| app.exact_edit.by_x_m = 7.0,
         |app, ctx| app.perform(Command::ToolLine, ctx),
         |app, _| app.settings.grid_step_m = Some(2.0),
@@ -256,4 +257,36 @@ fn parts_that_nothing_touches_show_what_new_layouts_would() {
     }
     let changed = painted.array_windows().filter(|[a, b]| a != b);
     assert_eq!(changed.count(), painted.len() - 1, "each step shows");
+}
+
+#[test]
+fn long_words_and_many_findings_fit_into_the_panel() {
+    // Lanes without a connection have dead ends.
+    let mut layout = lanes(600);
+    layout.paths.vehicle_types_mut().set(0, &["tug"]);
+    for (row, word) in [(0, "NONE"), (1, "CLOCKWISE")] {
+        let name = "rotationAtEndNodeAllowed";
+        layout.paths.attributes.set(row, name, Value::Text(word));
+    }
+    let mut window = TestWindow::showing(layout);
+    window.app().settings.language = Some(Language::German);
+    window.key(CTRL, Key::A);
+    window.app().side.open(SideTab::Properties);
+    window.wait(|app| {
+        let findings = app.files.layers()[0].tasks.findings();
+        findings.is_some_and(|findings| !findings.diagnostics.is_empty())
+    });
+    window.harness.run_steps(5);
+    let tops = |label| {
+        let all = window.harness.query_all_by_label(label);
+        all.map(|node| node.rect().min.y).collect::<Vec<_>>()
+    };
+    let row = tops("Dateien")[0];
+    // One of the two is the menu.
+    assert!(tops("Ansicht").contains(&row), "all tabs are in one row");
+    let width = window.harness.ctx.content_rect().width();
+    let buttons = window.harness.query_all_by_label("+");
+    let edges: Vec<f32> = buttons.map(|button| button.rect().max.x).collect();
+    let in_column = |edge: &f32| *edge <= width && (edge - edges[0]).abs() < 0.5;
+    assert!(edges.len() > 1 && edges.iter().all(in_column), "{edges:?}");
 }

@@ -58,9 +58,12 @@ impl Crashed {
     }
 }
 
-/// Clicks Recover.
+/// Clicks Recover; the question says how much there is, and of when.
 fn recover(window: &mut TestWindow) {
     window.harness.run_steps(3);
+    let question = "unsaved step from an earlier run of this window, the last one";
+    let question = window.harness.query_by_label_contains(question);
+    assert!(question.is_some());
     window.harness.get_by_label("Recover").click();
     window.harness.run_steps(3);
 }

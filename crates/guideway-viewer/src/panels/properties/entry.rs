@@ -15,8 +15,6 @@ use crate::units::shown_unit;
 const NAME_WIDTH: f32 = 130.0;
 /// Greatest width: that of the longest name with its unit.
 const MAX_NAME_WIDTH: f32 = 200.0;
-/// Width of the button behind a field, with the margins of both, in points.
-const BUTTON_WIDTH: f32 = 42.0;
 
 /// The text that is being typed, and its preview.
 #[derive(Default)]
@@ -103,8 +101,7 @@ impl Entry {
         let typed = self.draft.as_ref().filter(|draft| draft.target == target);
         let mut text = typed.map_or_else(|| before.clone(), |draft| draft.text.clone());
         let field = TextEdit::singleline(&mut text).hint_text(hint);
-        let width = (ui.available_width() - BUTTON_WIDTH).max(BUTTON_WIDTH);
-        let response = ui.add(field.desired_width(width));
+        let response = ui.add(field.desired_width(pickers::field_width(ui)));
         let has_focus = response.has_focus();
         let is_typed = self
             .draft

@@ -13,6 +13,14 @@ use crate::action::Action;
 use crate::editing::EditTask;
 use crate::language::{direction_name, t};
 
+/// Width of the button behind a field, with the margins of both, in points.
+const BUTTON_WIDTH: f32 = 42.0;
+
+/// Width of a field with a button behind it, in points.
+pub(super) fn field_width(ui: &Ui) -> f32 {
+    (ui.available_width() - BUTTON_WIDTH).max(BUTTON_WIDTH)
+}
+
 /// A choice of words; an empty one removes the property. Returns the one under the pointer.
 pub(super) fn choice(
     ui: &mut Ui,
@@ -28,7 +36,8 @@ pub(super) fn choice(
         Common::Several => t("several values"),
     };
     let combo = ComboBox::from_id_salt(format!("{:?}", target.subject));
-    combo.selected_text(shown).show_ui(ui, |ui| {
+    let combo = combo.selected_text(shown).truncate();
+    let choices = |ui: &mut Ui| {
         for word in words.iter().copied().chain([""]) {
             let label = if word.is_empty() { t("none") } else { word };
             let response = ui.selectable_label(shown == label, label);
@@ -42,6 +51,12 @@ pub(super) fn choice(
                 }
             }
         }
+    };
+    // Long words must not push the button behind the field out of the panel.
+    let width = field_width(ui);
+    ui.scope(|ui| {
+        ui.set_max_width(width);
+        combo.width(width).show_ui(ui, choices);
     });
     hovered
 }
