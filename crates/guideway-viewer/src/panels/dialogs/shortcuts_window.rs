@@ -5,8 +5,8 @@ use eframe::egui::{Align2, Context, Grid, ScrollArea, Ui, Vec2, Window};
 use crate::command::{MENUS, shortcuts_of};
 use crate::language::{shortcut_text, t};
 
-/// Height at which all shortcuts show without scrolling, in points.
-const HEIGHT: f32 = 740.0;
+/// Size at which all shortcuts show without scrolling, in points.
+const SIZE: Vec2 = Vec2::new(860.0, 740.0);
 
 /// Space of the title bar and edges around the content, in points.
 const MARGIN: Vec2 = Vec2::new(32.0, 64.0);
@@ -32,7 +32,7 @@ impl ShortcutsWindow {
         if self.is_open {
             let window = Window::new(t("Keyboard shortcuts")).open(&mut self.is_open);
             let screen = ctx.content_rect().size() - MARGIN;
-            let window = window.default_height(HEIGHT).constrain(true);
+            let window = window.default_size(SIZE).constrain(true);
             let window = window.pivot(Align2::CENTER_CENTER);
             let window = window.default_pos(ctx.content_rect().center());
             window.max_size(screen).show(ctx, |ui| {
