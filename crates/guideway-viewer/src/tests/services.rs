@@ -197,6 +197,9 @@ impl AppServices for TestServices {
 
     fn write_project(&self, path: &Path, text: &str) -> Result<(), UserError> {
         self.note_thread("writing a project");
+        // Names that random input types would lie among the sources.
+        let path = path.is_absolute().then_some(path);
+        let path = path.ok_or_else(|| Self::error("no folder"))?;
         std::fs::write(path, text).map_err(|error| Self::error(&error.to_string()))
     }
 
@@ -209,8 +212,7 @@ impl AppServices for TestServices {
     }
 
     fn ask_for_file(&self, question: &FileQuestion) -> Option<PendingFileAnswer> {
-        let mut answers = locked(&self.answers);
-        let answer = answers.pop()?;
+        let answer = locked(&self.answers).pop()?;
         *locked(&self.question) = Some(question.clone());
         Some(Box::new(move || answer))
     }
@@ -274,8 +276,7 @@ impl AppServices for TestServices {
             job.advance(row.into(), height.into());
             self.wait_for_disk(job)?;
         }
-        let mut pictures = locked(&self.pictures);
-        pictures.push((path.to_owned(), export.clone()));
+        locked(&self.pictures).push((path.to_owned(), export.clone()));
         Ok(())
     }
 
