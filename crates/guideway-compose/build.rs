@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let is_page = std::env::var("CARGO_CFG_TARGET_ARCH")? == "wasm32";
     for (name, font) in [
         ("hack.ttf", HACK_REGULAR),
-        ("ubuntu.ttf", UBUNTU_LIGHT),
+        ("letters.ttf", UBUNTU_LIGHT),
         ("symbols.ttf", NOTO_EMOJI_REGULAR),
     ] {
         let stripped = stripped(font).ok_or(name)?;

@@ -18,6 +18,7 @@ from ._error import refusal
 _native: Any = importlib.import_module("guideway._guideway")
 _module: str = gzip.decompress(_native.widget_module()).decode()
 _engine: bytes = _native.widget_engine()
+_letters: bytes = _native.widget_letters()
 _symbols: bytes = _native.widget_symbols()
 
 #: Fields of a vehicle, and their names in the browser.
@@ -66,6 +67,7 @@ class Widget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
 
     _esm = _synced(traitlets.Unicode(_module))
     _engine = _synced(traitlets.Bytes(_engine))
+    _letters = _synced(traitlets.Bytes(_letters))
     _symbols = _synced(traitlets.Bytes(_symbols))
     _layout = _synced(traitlets.Bytes())
     _name = _synced(traitlets.Unicode("layout.arrow"))

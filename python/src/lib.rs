@@ -56,6 +56,7 @@ mod _guideway {
     use crate::tiles::{Tiler, tiles};
     #[pymodule_export]
     use crate::widget::{
-        widget_check, widget_engine, widget_layout, widget_missing, widget_module, widget_symbols,
+        widget_check, widget_engine, widget_layout, widget_letters, widget_missing, widget_module,
+        widget_symbols,
     };
 }

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use guideway::arrow::{Precision, WriteOptions, write_layout};
+use guideway::compose::PageFont;
 use guideway::layout::PathRef;
 use guideway::scene::{ColorBy, Scene, SceneOptions};
 use pyo3::prelude::*;
@@ -14,10 +15,8 @@ use crate::error::{bad_argument, exception};
 use crate::layout::PyLayout;
 
 /// The engine, as gzip: that of `guideway share`.
-const ENGINE: &[u8] = include_bytes!("../../crates/guideway/page/engine.wasm.gz");
-/// The font of symbols, as gzip.
-const SYMBOLS: &[u8] = include_bytes!("../../crates/guideway/page/symbols.ttf.gz");
-/// The module of the widget, as gzip: `cargo xtask web` makes all three.
+const ENGINE: &[u8] = include_bytes!("../../crates/guideway/page/engine-arrow.wasm.gz");
+/// The module of the widget, as gzip: `cargo xtask web` makes both.
 const MODULE: &[u8] = include_bytes!("../../crates/guideway/page/widget.js.gz");
 
 /// The engine for browsers, as gzip.
@@ -26,10 +25,16 @@ pub(crate) fn widget_engine(py: Python<'_>) -> Bound<'_, PyBytes> {
     PyBytes::new(py, ENGINE)
 }
 
+/// The font of rare letters, as gzip.
+#[pyfunction]
+pub(crate) fn widget_letters(py: Python<'_>) -> Bound<'_, PyBytes> {
+    PyBytes::new(py, PageFont::Letters.packed())
+}
+
 /// The font of symbols, as gzip.
 #[pyfunction]
 pub(crate) fn widget_symbols(py: Python<'_>) -> Bound<'_, PyBytes> {
-    PyBytes::new(py, SYMBOLS)
+    PyBytes::new(py, PageFont::Symbols.packed())
 }
 
 /// The JavaScript module of the widget, as gzip.

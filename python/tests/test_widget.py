@@ -42,8 +42,9 @@ def test_the_browser_gets_the_engine_and_all_of_the_layout(
     site: guideway.Layout, widget: Any
 ) -> None:
     state = widget.get_state()
-    assert state["_engine"] == (PAGE / "engine.wasm.gz").read_bytes()
-    assert state["_symbols"] == (PAGE / "symbols.ttf.gz").read_bytes()
+    assert state["_engine"] == (PAGE / "engine-arrow.wasm.gz").read_bytes()
+    for font in ("_letters", "_symbols"):
+        assert gzip.decompress(state[font])[:4] == b"\0\1\0\0"
     assert state["_esm"].encode() == gzip.decompress((PAGE / "widget.js.gz").read_bytes())
     again = guideway.open(io.BytesIO(state["_layout"]))
     assert len(again) == 326 and site.diff(again) == []

@@ -83,8 +83,8 @@ export interface Diff {
   groups: { what: string; example: string }[];
 }
 
-/** Where the font of symbols is: base64 of gzip, or an address. */
-export type Symbols = { packed: string } | { url: string };
+/** Where a font is: base64 of gzip, or an address. */
+export type FontSource = { packed: string } | { url: string };
 
 /** What a picture shows: crates/guideway-web/src/look.rs. */
 export interface Look {

@@ -34,6 +34,10 @@ export class GuidewayView extends Base {
   static engineUrl: string | URL = besideModule(
     () => new URL("./engine.wasm.gz", import.meta.url),
   );
+  /** The address of the font of rare letters, which is fetched when a name has one. */
+  static lettersUrl: string | URL = besideModule(
+    () => new URL("./letters.ttf.gz", import.meta.url),
+  );
   /** The address of the font of symbols, which is fetched when a name has one. */
   static symbolsUrl: string | URL = besideModule(
     () => new URL("./symbols.ttf.gz", import.meta.url),
@@ -84,9 +88,10 @@ export class GuidewayView extends Base {
 
   connectedCallback(): void {
     if (this.engine) return;
-    const { engineUrl, symbolsUrl } = GuidewayView;
+    const { engineUrl, lettersUrl, symbolsUrl } = GuidewayView;
+    const fonts = [lettersUrl, symbolsUrl].map((url) => ({ url: String(url) }));
     const engine = () => compiled(String(engineUrl));
-    this.engine = new Engine(engine, { url: String(symbolsUrl) }, GuidewayView.threaded());
+    this.engine = new Engine(engine, fonts, GuidewayView.threaded());
     this.engine.onprogress = (share) => this.shadow.advance(share);
     this.dress();
     void this.load();

@@ -1,7 +1,7 @@
 // The engine as the page calls it: a worker that is started again when it stops.
 
 import workerSource from "worker-source";
-import type { Symbols } from "./answers.js";
+import type { FontSource } from "./answers.js";
 import { t } from "./text.js";
 import { type Threaded, Threads } from "./threads.js";
 
@@ -58,7 +58,7 @@ export class Engine {
   /** Where an engine of several threads does not start, that of one does, which is fetched then. */
   constructor(
     private readonly source: () => Source | Promise<Source>,
-    private readonly symbols?: Symbols,
+    private readonly fonts: FontSource[],
     private threaded?: Threaded,
   ) {
     this.threadsUrl = threaded ? urlOf(threaded.worker) : "";
@@ -79,7 +79,7 @@ export class Engine {
 
   private async start(): Promise<void> {
     const worker = this.startWorker(this.url);
-    await this.post(worker, "start", [await this.source(), this.symbols]);
+    await this.post(worker, "start", [await this.source(), this.fonts]);
     this.isStarted = true;
   }
 
@@ -87,7 +87,7 @@ export class Engine {
     const worker = this.startWorker(this.threadsUrl);
     try {
       const module = await engine();
-      const memory = await this.post<WebAssembly.Memory>(worker, "start", [module, this.symbols]);
+      const memory = await this.post<WebAssembly.Memory>(worker, "start", [module, this.fonts]);
       const threads = new Threads((reason) => {
         if (threads === this.threads) this.fail(reason);
       });

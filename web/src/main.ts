@@ -3,6 +3,7 @@
 import type { Details, Finding, Info, Picture, Placement, Point } from "./answers.js";
 import type { Reference, Shared } from "./answers.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
+import { unpackedText } from "./gzip.js";
 import { GuidewayMap, paintElement } from "./map.js";
 import { Panels, byId, cells, item } from "./panels.js";
 import { connectPlan } from "./plan.js";
@@ -16,8 +17,12 @@ const LENGTH_ROWS = 50_000;
 
 const packedEngine = byId("engine").textContent!.trim();
 const shared: Shared | undefined = readShared();
-const symbols = document.getElementById("symbols")?.textContent?.trim();
-const engine = new Engine(() => packedEngine, symbols ? { packed: symbols } : undefined);
+/** The fonts that are in the page, in the order in which a letter is sought in them. */
+const fonts = ["letters", "symbols"].flatMap((id) => {
+  const packed = document.getElementById(id)?.textContent?.trim();
+  return packed ? [{ packed }] : [];
+});
+const engine = new Engine(() => packedEngine, fonts);
 const map = new GuidewayMap(byId<HTMLCanvasElement>("map"));
 const panels = new Panels();
 const pointer = new Pointer((...call) => engine.call(...call));
@@ -26,6 +31,11 @@ let info: Info | undefined;
 /** The layout whose length is known or being added up. */
 let summed: Info | undefined;
 let measured: Point[] | undefined;
+
+/** A file that is in the page. */
+function packed(id: string): string {
+  return byId(id).textContent!.trim();
+}
 
 function readShared(): Shared | undefined {
   const text = document.getElementById("shared")?.textContent;
@@ -103,6 +113,7 @@ async function addPlan(file: File, placement: Placement | null): Promise<void> {
 
 function show(opened: Info): void {
   forget();
+  if (shared) opened.targets = [{ id: "arrow", name: "Arrow", extension: ".arrow" }];
   info = opened;
   document.body.classList.remove("empty");
   map.reset();
@@ -304,7 +315,9 @@ async function savePicture(format: string): Promise<void> {
   if (bytes) download(`${stem()}.${format}`, bytes);
 }
 
-async function saveAs(target: { id: string; name: string; extension: string | null }) {
+/** Saves the layout in a format, or the file that is in the page. */
+async function saveAs(target: Info["targets"][number]): Promise<void> {
+  if (shared) return download(shared.name, await unpackedText(packed("layout")));
   type Saved = { bytes: ArrayBuffer; losses: string[] };
   const saved = await busy(target.name, () => engine.call<Saved>("save", [target.id]));
   if (!saved) return;
@@ -388,7 +401,6 @@ function connect(): void {
 
 /** Opens the layout and the floor plan that are in the page. */
 async function openShared({ name, floorPlan }: Shared): Promise<Info> {
-  const packed = (id: string) => byId(id).textContent!.trim();
   const info = await engine.call<Info>("openPacked", [name, packed("layout")]);
   if (floorPlan) {
     const { name, placement } = floorPlan;
@@ -411,7 +423,8 @@ async function start(): Promise<void> {
   await engine.started;
   document.documentElement.dataset["ready"] = String(Math.round(performance.now()));
   if (!shared) return;
-  for (const id of ["open", "start"]) byId(id).hidden = true;
+  // A shared page opens no other file.
+  for (const id of ["open", "start", "compare"]) byId(id).hidden = true;
   const opened = await busy(`${shared.name}: ${t("reading")}`, () => openShared(shared));
   if (opened) show(opened);
 }

@@ -5,7 +5,7 @@ import type { Box } from "./answers.js";
 import { wordsOf } from "./engine.js";
 import type { GuidewayView } from "./element.js";
 import type { View } from "./map.js";
-import "./package.js";
+import "./exports.js";
 import type { Vehicle } from "./vehicles.js";
 
 /** The model of anywidget: traits by name. */
@@ -40,11 +40,12 @@ function addressOf(bytes: unknown): string {
   return URL.createObjectURL(new Blob([bytes as DataView<ArrayBuffer>]));
 }
 
-/** Gives the element its engine and the font of symbols. Each widget loads this module anew, but the
+/** Gives the element its engine and fonts. Each widget loads this module anew, but the
  * first one defines the element, which compiles one engine for all. */
 function provideEngine(model: Model): void {
   const element = customElements.get("guideway-view") as typeof GuidewayView;
   element.engineUrl ||= addressOf(model.get("_engine"));
+  element.lettersUrl ||= addressOf(model.get("_letters"));
   element.symbolsUrl ||= addressOf(model.get("_symbols"));
 }
 

@@ -1,7 +1,7 @@
 // The worker: unpacks the engine, holds the open layout, answers one call after the other.
 
 import init, { Session, add_font, has_missed_letters } from "../engine/guideway_web.js";
-import type { Symbols } from "./answers.js";
+import type { FontSource } from "./answers.js";
 import { unpacked, unpackedText } from "./gzip.js";
 
 type Message = { id: number; call: string; args: unknown[] };
@@ -9,8 +9,8 @@ type Message = { id: number; call: string; args: unknown[] };
 let session: Session | undefined;
 let memory: WebAssembly.Memory;
 let told = 0;
-/** The font of symbols, until it is needed. */
-let symbols: Symbols | undefined;
+/** The fonts that no letter has needed, in the order in which one is sought in them. */
+let fonts: FontSource[] = [];
 
 /** Called by the engine while it reads: the finished share, at most ten times a second. */
 (self as unknown as Record<string, unknown>)["guidewayProgress"] = (share: number) => {
@@ -21,21 +21,24 @@ let symbols: Symbols | undefined;
   }
 };
 
-async function symbolsOf(of: Symbols): Promise<ArrayBuffer | undefined> {
-  if ("packed" in of) return unpackedText(of.packed);
-  const response = await fetch(of.url);
+async function bytesOf(font: FontSource): Promise<ArrayBuffer | undefined> {
+  if ("packed" in font) return unpackedText(font.packed);
+  const response = await fetch(font.url);
   return response.ok ? unpacked(await response.arrayBuffer()) : undefined;
 }
 
-/** Draws, and once more if letters are missing that the font of symbols may have. */
+/** Draws, and once more with each font until none of the letters is missing. */
 async function drawn<T>(draw: () => T): Promise<T> {
-  const first = draw();
-  const of = symbols;
-  if (!of || !has_missed_letters()) return first;
-  symbols = undefined;
-  // Without it, boxes stand for the letters.
-  const font = await symbolsOf(of).catch(() => undefined);
-  return font && add_font(new Uint8Array(font)) ? draw() : first;
+  let value = draw();
+  let isMissing = fonts.length > 0 && has_missed_letters();
+  while (isMissing && fonts.length) {
+    // Without it, boxes stand for the letters.
+    const font = await bytesOf(fonts.shift()!).catch(() => undefined);
+    if (!font || !add_font(new Uint8Array(font))) continue;
+    value = draw();
+    isMissing = has_missed_letters();
+  }
+  return value;
 }
 
 function render(look: { width: number; height: number }) {
@@ -51,6 +54,13 @@ function opened(): Session {
   return session;
 }
 
+/** Fails where the engine reads layouts, and does nothing else with files. */
+function requireFiles(): void {
+  if ("save" in Session.prototype) return;
+  const message = "This engine reads layouts of Arrow; it writes and compares none";
+  throw JSON.stringify({ code: "usage", message, remedy: "Take the whole engine" });
+}
+
 function replace(name: string, bytes: Uint8Array): unknown {
   const next = new Session(name, bytes);
   session?.free();
@@ -59,8 +69,8 @@ function replace(name: string, bytes: Uint8Array): unknown {
 }
 
 export const calls: Record<string, (...args: never[]) => unknown> = {
-  start: async (engine: string | WebAssembly.Module, symbolsHere?: Symbols) => {
-    symbols = symbolsHere;
+  start: async (engine: string | WebAssembly.Module, fontsHere: FontSource[]) => {
+    fonts = fontsHere;
     const source = typeof engine === "string" ? await unpackedText(engine) : engine;
     memory = (await init({ module_or_path: source })).memory;
     // The threads of an engine share it.
@@ -85,6 +95,7 @@ export const calls: Record<string, (...args: never[]) => unknown> = {
   query: (text: string, limit: number) => JSON.parse(opened().query(text, limit)),
   route: (ends: unknown) => JSON.parse(opened().route(JSON.stringify(ends))),
   diff: (name: string, bytes: ArrayBuffer, most: number) => {
+    requireFiles();
     const other = new Session(name, new Uint8Array(bytes));
     const found = JSON.parse(opened().diff(other, most));
     other.free();
@@ -94,6 +105,7 @@ export const calls: Record<string, (...args: never[]) => unknown> = {
   curves: (look: unknown, format: string) =>
     drawn(() => opened().curves(JSON.stringify(look), format).buffer),
   save: (format: string) => {
+    requireFiles();
     const saved = opened().save(format);
     const losses = JSON.parse(saved.losses);
     const bytes = saved.take_bytes().buffer;

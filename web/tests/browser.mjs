@@ -199,10 +199,10 @@ async function handsAndKeysWork() {
   await page.context().close();
 }
 
-/** A layout whose names have symbols, for which the page has a font of its own. */
-async function symbolsAreThoseOfTheCommand() {
+/** A layout whose names have symbols and rare letters, for which the page has fonts of their own. */
+async function lettersAreThoseOfTheCommand() {
   const named = join(folder, "symbols.lif.json");
-  writeFileSync(named, readFileSync(site, "utf8").replaceAll("dock-1", "⚡ dock-1"));
+  writeFileSync(named, readFileSync(site, "utf8").replaceAll("dock-1", "⚡ Ἀθῆναι dock-1"));
   const [file, expected] = [join(folder, "symbols.html"), join(folder, "symbols.png")];
   const fixed = ["--size", "640x400", "--method", "cpu", "--shade", "color", "--labels"];
   guideway("render", named, "-o", expected, "--quiet", ...fixed);
@@ -215,9 +215,9 @@ async function symbolsAreThoseOfTheCommand() {
     assert.ok(isSame(await pngOf(page, look), readFileSync(expected)), `${url} has other letters`);
     await page.context().close();
   }
-  // Letters alone need no such font.
+  // Common letters need none of them.
   guideway("share", site, "-o", file, "--quiet");
-  assert.ok(!readFileSync(file, "utf8").includes('id="symbols"'));
+  assert.ok(!/id="(letters|symbols)"/.test(readFileSync(file, "utf8")));
 }
 
 async function floorPlansAreAddedToAnOpenPage() {
@@ -300,6 +300,27 @@ async function sharedPageOpensFromDisk() {
   console.log(`shared page: ${(statSync(file).size / 1e6).toFixed(2)} MB`);
 }
 
+async function sharedLayoutsAreWhole() {
+  const [file, expected] = [join(folder, "whole.html"), join(folder, "whole.png")];
+  const fixed = ["--size", "640x400", "--method", "cpu", "--shade", "color"];
+  for (const layout of [site, ...realFiles()]) {
+    guideway("share", layout, "-o", file, "--quiet");
+    guideway("render", layout, "-o", expected, "--quiet", ...fixed, ...markArgs);
+    const page = await open(pathToFileURL(file).href);
+    await page.waitForFunction(() => guideway.map.drawn > 0);
+    const made = await pngOf(page, { width: 640, height: 400, ...marks });
+    assert.ok(isSame(made, readFileSync(expected)), `${layout}: the shared picture differs`);
+    assert.ok(await page.isHidden("#compare"), "the engine of a shared page compares nothing");
+    await page.click("[data-tab=export]");
+    const [saved] = await Promise.all([
+      page.waitForEvent("download"),
+      page.click("#targets button >> text=/^Arrow$/"),
+    ]);
+    guideway("info", "--quiet", await saved.path());
+    await page.context().close();
+  }
+}
+
 async function sharedFloorPlanAndSweptAreasAreThoseOfTheCommand() {
   const [drawing, image] = [join(folder, "plan.dxf"), join(folder, "plan.png")];
   guideway("convert", site, drawing, "--quiet");
@@ -343,10 +364,11 @@ try {
   await picturesAreThoseOfTheCommand();
   await refusedFilesAreRefusedInTheWordsOfTheCommand();
   await handsAndKeysWork();
-  await symbolsAreThoseOfTheCommand();
+  await lettersAreThoseOfTheCommand();
   await floorPlansAreAddedToAnOpenPage();
   await memoryStaysFlatOverPans();
   await sharedPageOpensFromDisk();
+  await sharedLayoutsAreWhole();
   await sharedFloorPlanAndSweptAreasAreThoseOfTheCommand();
 } finally {
   await browser.close();

@@ -244,6 +244,23 @@ async function saysWhatIsWrong() {
   await page.context().close();
 }
 
+/** The module whose engine reads Arrow alone. */
+async function arrowEngineReadsArrow() {
+  guideway("convert", site, join(folder, "element.arrow"), "--quiet");
+  const page = await openElement(`src="element.arrow"`, "../../../web/dist/guideway-arrow.js");
+  await page.waitForFunction(() => view.map.drawn > 0);
+  const said = await page.evaluate(async (siteUrl) => {
+    const refused = await view.save("lif").catch((error) => error.message);
+    const failed = next("error");
+    view.setAttribute("src", siteUrl);
+    return { paths: view.info.paths, targets: view.info.targets, refused, failed: await failed };
+  }, siteUrl);
+  assert.deepEqual([said.paths, said.targets], [326, []]);
+  assert.match(said.refused, /reads layouts of Arrow/);
+  assert.match(said.failed, /LIF.*this build|this build.*LIF/);
+  await page.context().close();
+}
+
 async function exampleMovesVehicles() {
   for (const [name, options] of Object.entries({ desktop, phone })) {
     const page = await open("web/examples/vehicles.html", options);
@@ -297,6 +314,7 @@ try {
   await tellsWhatThePointerIsAt();
   await movesVehicles();
   await saysWhatIsWrong();
+  await arrowEngineReadsArrow();
   await exampleMovesVehicles();
 } finally {
   await browser.close();

@@ -49,8 +49,9 @@ async function open(traits = {}, layout = "/crates/guideway/examples/site.lif.js
       const text = await (await fetch("widget.js")).text();
       const address = () => URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
       window.model = new Model();
-      model.traits._engine = await bytes("/crates/guideway/page/engine.wasm.gz");
-      model.traits._symbols = await bytes("/crates/guideway/page/symbols.ttf.gz");
+      model.traits._engine = await bytes("/crates/guideway/page/engine-arrow.wasm.gz");
+      model.traits._letters = await bytes("/web/dist/letters.ttf.gz");
+      model.traits._symbols = await bytes("/web/dist/symbols.ttf.gz");
       model.traits._layout = await bytes(${JSON.stringify(layout)});
       window.mount = async (el) => (await import(address())).default.render({ model, el });
       window.painted = () => new Promise((resolve) => {

@@ -80,7 +80,7 @@ pub use kept_method::KeptMethod;
 pub use picture::{LevelPart, Picture, Viewport};
 pub use render::{NoProgress, Rendered, StripSink};
 #[cfg(not(target_arch = "wasm32"))]
-pub use text::{PACKED_SYMBOLS, needs_symbols};
+pub use text::PageFont;
 pub use text::{SystemFont, add_font, has_missed_letters, system_font};
 pub use vector_file::VectorFormat;
 pub use widths::suitable_widths;

@@ -1,10 +1,8 @@
-//! Answers as JSON: findings, changes, pictures.
-
-use std::collections::BTreeMap;
+//! Answers as JSON: findings and pictures.
 
 use guideway::compose::{Picture, Rendered};
 use guideway::document::{Element, locate};
-use guideway::layout::{Changes, Diagnostic, ElementChange, Layout};
+use guideway::layout::{Diagnostic, Layout};
 use guideway::scene::Legend;
 use serde_json::{Value, json};
 
@@ -52,39 +50,4 @@ fn legend_json(legend: &Legend) -> Value {
         json!({ "label": entry.label, "color": color, "paths": entry.paths })
     });
     json!({ "title": legend.title(), "entries": entries.collect::<Vec<_>>() })
-}
-
-/// Counts of the changes, and the first ones.
-pub(crate) fn diff(found: &Changes<'_>, most: usize) -> Value {
-    let mut counts: BTreeMap<(&str, &str), u64> = BTreeMap::new();
-    for of in found.elements.iter() {
-        *counts
-            .entry((of.element.name(), of.change.name()))
-            .or_default() += 1;
-    }
-    let counts = counts.into_iter().map(|((element, change), count)| {
-        json!({ "element": element, "change": change, "count": count })
-    });
-    let shown = found.elements.iter().take(most);
-    let groups = found.groups.iter();
-    let groups = groups.map(|of| json!({ "what": of.what, "example": of.example }));
-    json!({
-        "counts": counts.collect::<Vec<_>>(),
-        "changes": shown.map(|of| change(found, &of)).collect::<Vec<_>>(),
-        "groups": groups.collect::<Vec<_>>(),
-    })
-}
-
-fn change(found: &Changes<'_>, of: &ElementChange) -> Value {
-    let values = found.values(of);
-    json!({
-        "element": of.element.name(),
-        "id": found.id(of),
-        "newId": found.new_id(of),
-        "change": of.change.name(),
-        "newRow": of.new_row(),
-        "column": values.as_ref().map(|values| values.property.to_owned()),
-        "before": values.as_ref().and_then(|values| Some(values.before.as_ref()?.to_string())),
-        "after": values.as_ref().and_then(|values| Some(values.after.as_ref()?.to_string())),
-    })
 }

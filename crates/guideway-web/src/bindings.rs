@@ -5,7 +5,9 @@ use serde_json::json;
 use wasm_bindgen::prelude::*;
 
 use crate::file::Uint8Array;
-use crate::session::{Drawn, Saved, Session};
+#[cfg(feature = "files")]
+use crate::files::Saved;
+use crate::session::{Drawn, Session};
 use crate::work::{open, work};
 
 /// A layout that is open.
@@ -17,6 +19,7 @@ pub struct JsSession(Session);
 pub struct JsDrawn(Drawn);
 
 /// A file that was written.
+#[cfg(feature = "files")]
 #[wasm_bindgen(js_name = Saved)]
 pub struct JsSaved(Saved);
 
@@ -99,12 +102,6 @@ impl JsSession {
         work(|| self.0.curves(look, format)).map_err(thrown)
     }
 
-    /// See [`Session::save`].
-    pub fn save(&self, format: &str) -> Result<JsSaved, JsValue> {
-        let saved = work(|| self.0.save(format));
-        saved.map(JsSaved).map_err(thrown)
-    }
-
     /// See [`Session::hit`].
     pub fn hit(&self, x: f64, y: f64, reach_px: f64) -> String {
         self.0.hit(x, y, reach_px)
@@ -129,6 +126,16 @@ impl JsSession {
     pub fn route(&self, ends: &str) -> Result<String, JsValue> {
         self.0.route(ends).map_err(thrown)
     }
+}
+
+#[cfg(feature = "files")]
+#[wasm_bindgen(js_class = Session)]
+impl JsSession {
+    /// See [`Session::save`].
+    pub fn save(&self, format: &str) -> Result<JsSaved, JsValue> {
+        let saved = work(|| self.0.save(format));
+        saved.map(JsSaved).map_err(thrown)
+    }
 
     /// See [`Session::diff`].
     pub fn diff(&self, other: &JsSession, most: usize) -> String {
@@ -150,6 +157,7 @@ impl JsDrawn {
     }
 }
 
+#[cfg(feature = "files")]
 #[wasm_bindgen(js_class = Saved)]
 impl JsSaved {
     /// The losses, as JSON.

@@ -6,11 +6,12 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | `session` | opens a layout; pictures, findings, routes, differences, files |
+//! | `session` | opens a layout; pictures, findings, routes |
 //! | `look` | what a picture shows, as the page asks for it |
+//! | `files` | layouts in files of all formats, with the feature `files`; differences of two |
 //! | `floor_plan` | the drawing or the image below the paths |
 //! | `elements` | properties, outlines, hit test, search |
-//! | `answers` | layouts, findings, routes and changes as JSON |
+//! | `answers` | findings and pictures as JSON |
 //! | `bindings` | the names of the calls in JavaScript |
 //! | `file` | bytes of the file that is being opened, which stay outside |
 //! | `work` | calls in one thread, or with `threads` in a pool of workers |
@@ -21,6 +22,8 @@ mod bindings;
 mod elements;
 #[cfg(target_arch = "wasm32")]
 mod file;
+#[cfg(feature = "files")]
+mod files;
 mod floor_plan;
 mod look;
 mod session;
@@ -31,4 +34,6 @@ mod work;
 #[path = "work/pool.rs"]
 mod work;
 
-pub use session::{Drawn, Saved, Session};
+#[cfg(feature = "files")]
+pub use files::Saved;
+pub use session::{Drawn, Session};

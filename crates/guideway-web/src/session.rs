@@ -9,8 +9,8 @@ use guideway::compose::{
     suitable_widths,
 };
 use guideway::document::{Index, pick_element};
-use guideway::formats::{Parts, Progress, ReadOptions, Target, WriteError, read_parts};
-use guideway::layout::{CompareOptions, Layout, Severity, UserError, changes};
+use guideway::formats::{Parts, Progress, ReadOptions, read_parts};
+use guideway::layout::{Layout, Severity, UserError};
 use guideway::network::{Route, RouteOptions, Router};
 use guideway::scene::density::ToneMap;
 use guideway::scene::{LineRule, Scene, Shading, View};
@@ -28,7 +28,7 @@ const MAX_CANDIDATES: usize = 100_000;
 
 /// A layout that is open in a page.
 pub struct Session {
-    name: String,
+    pub(crate) name: String,
     pub(crate) layout: Arc<Layout>,
     index: OnceLock<Arc<Index>>,
     scene: Option<(SceneKey, Arc<Scene>)>,
@@ -55,15 +55,6 @@ pub struct Drawn {
     pub rgba: Vec<u8>,
     /// View, account of all paths, notes, legend.
     pub report: String,
-}
-
-/// A file that was written.
-#[derive(Debug)]
-pub struct Saved {
-    /// The content of the file.
-    pub bytes: Vec<u8>,
-    /// The losses: a sentence for each thing that the format cannot hold, as JSON.
-    pub losses: String,
 }
 
 impl Session {
@@ -120,6 +111,9 @@ impl Session {
     pub fn info(&self) -> String {
         let mut info = guideway::json::counts(&self.layout);
         info["name"] = json!(self.name);
+        if cfg!(not(feature = "files")) {
+            info["targets"] = json!([]);
+        }
         info.to_string()
     }
 
@@ -206,26 +200,6 @@ impl Session {
         Ok(bytes)
     }
 
-    /// The layout in a format, such as `lif`.
-    ///
-    /// # Errors
-    /// When no format has this name, or the layout is none that it can hold.
-    pub fn save(&self, format: &str) -> Result<Saved, UserError> {
-        let target = Target::from_id(format)
-            .ok_or_else(|| usage(format!("no format is called `{format}`")))?;
-        let mut bytes = Vec::new();
-        let losses = target.write(&self.layout, &mut bytes);
-        let losses = losses.map_err(|problem| WriteError {
-            path: PathBuf::from(&self.name),
-            problem,
-        })?;
-        let losses: Vec<String> = losses.iter().map(ToString::to_string).collect();
-        Ok(Saved {
-            bytes,
-            losses: json!(losses).to_string(),
-        })
-    }
-
     /// The element at a pixel of the last picture, as JSON; `null` if there is none.
     pub fn hit(&self, x: f64, y: f64, reach_px: f64) -> String {
         let (Some((view, rule)), Some((_, scene))) = (&self.shown, &self.scene) else {
@@ -269,12 +243,6 @@ impl Session {
             .map_err(|error| usage(format!("the ends of the route: {error}")))?;
         let route = self.find_route(&ends)?;
         Ok(guideway::json::route(&self.layout, &route).to_string())
-    }
-
-    /// The changes from this layout to another one, as JSON.
-    pub fn diff(&self, other: &Self, most: usize) -> String {
-        let found = changes(&self.layout, &other.layout, &CompareOptions::default());
-        answers::diff(&found, most).to_string()
     }
 
     fn index(&self) -> &Index {

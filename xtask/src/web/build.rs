@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
-use serde_json::Value;
+use anyhow::{Result, bail};
 
 use super::sources::{self, PAGE};
 use super::threads;
 use super::tools::{self, wasm_bindgen};
 use crate::debian_rust::{DebianRust, linker};
-use crate::step::{cargo, command, heading};
+use crate::step::{command, heading};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The folder of what is fetched and built.
@@ -28,21 +27,30 @@ pub(super) fn page() -> Result<()> {
     tools::ensure()?;
     let rust = DebianRust::ensure()?;
     let bindgen = wasm_bindgen(&folder)?;
-    let one = Engine {
+    let whole = Engine {
         title: "the engine",
         name: "engine",
-        features: "formats",
+        features: "files,formats",
+        target: "cargo",
         flags: "-C target-feature=+simd128".to_owned(),
         c_flags: "",
     };
-    let several = Engine {
+    let of_arrow = Engine {
+        title: "the engine that reads Arrow",
+        name: "engine-arrow",
+        features: "arrow",
+        flags: whole.flags.clone(),
+        ..whole
+    };
+    let threaded = Engine {
         title: "the engine of several threads",
         name: "engine-threads",
-        features: "formats,threads",
+        features: "files,formats,threads",
+        target: "cargo-threads",
         flags: threads::flags(),
         c_flags: threads::C_FLAGS,
     };
-    for engine in [one, several] {
+    for engine in [whole, of_arrow, threaded] {
         heading(engine.title);
         engine.build(&rust, &bindgen, &folder)?;
     }
@@ -53,7 +61,7 @@ pub(super) fn page() -> Result<()> {
     npm(&["exec", "tsc", "--", "--project", "."])?;
     command("node")
         .args(["web/build.mjs", FOLDER, PAGE])
-        .args([symbols()?])
+        .args([fonts(&folder)?])
         .run()?;
     sources::record()?;
     let page = Path::new(FOLDER).join("guideway.html");
@@ -69,14 +77,15 @@ struct Engine {
     /// The folder under `web` for what `wasm-bindgen` makes of it.
     name: &'static str,
     features: &'static str,
+    /// The folder of cargo's: the flags are those of the standard library too.
+    target: &'static str,
     flags: String,
     c_flags: &'static str,
 }
 
 impl Engine {
     fn build(&self, rust: &DebianRust, bindgen: &Path, folder: &Path) -> Result<()> {
-        // The flags are those of the standard library too: a folder for each.
-        let target = folder.join(self.name.replace("engine", "cargo"));
+        let target = folder.join(self.target);
         let flags = format!("{} {}", self.flags, rust.remapped_paths()?);
         let c_flags = format!("{} {}", zstd_flags(), self.c_flags);
         rust.cargo(&["rustc", "--locked", "--package", "guideway-web", "--lib"])
@@ -111,15 +120,14 @@ fn zstd_flags() -> String {
     format!("{} {}", excluded.join(" "), short.join(" "))
 }
 
-/// The font of symbols, in the sources of the crate that has it.
-fn symbols() -> Result<PathBuf> {
-    let metadata = cargo(&["metadata", "--locked", "--format-version", "1"]).capture()?;
-    let metadata: Value = serde_json::from_str(&metadata.stdout)?;
-    let mut packages = metadata["packages"].as_array().into_iter().flatten();
-    let found = packages.find(|package| package["name"] == "epaint_default_fonts");
-    let manifest = found.and_then(|package| package["manifest_path"].as_str());
-    let manifest = Path::new(manifest.context("no crate has the font of symbols")?);
-    Ok(manifest
-        .with_file_name("fonts")
-        .join("NotoEmoji-Regular.ttf"))
+/// The folder with the fonts that the build of the engine has written.
+fn fonts(folder: &Path) -> Result<PathBuf> {
+    let built = folder.join("cargo").join(TARGET).join("web/build");
+    for entry in std::fs::read_dir(&built)? {
+        let fonts = entry?.path().join("out");
+        if fonts.join("letters.ttf").exists() {
+            return Ok(fonts);
+        }
+    }
+    bail!("no fonts in {}", built.display())
 }

@@ -14,18 +14,55 @@ use super::system_fonts::SystemFonts;
 /// First bytes of gzip.
 const GZIP: &[u8] = &[0x1F, 0x8B];
 
-/// The embedded fonts: monospaced Hack, Ubuntu Light for more letters, and symbols. Pages get the
-/// symbols in a part of their own, for they are larger than the letters and seldom needed.
+/// The embedded fonts: monospaced Hack, and those that pages get apart.
 const EMBEDDED: &[&[u8]] = &[
     include_bytes!(concat!(env!("OUT_DIR"), "/hack.ttf")),
-    include_bytes!(concat!(env!("OUT_DIR"), "/ubuntu.ttf")),
     #[cfg(not(target_arch = "wasm32"))]
-    PACKED_SYMBOLS,
+    PageFont::Letters.packed(),
+    #[cfg(not(target_arch = "wasm32"))]
+    PageFont::Symbols.packed(),
 ];
 
-/// The embedded font of symbols as gzip, which pages get where a name has one.
+/// An embedded font that few names need: a page has it in a part of its own.
 #[cfg(not(target_arch = "wasm32"))]
-pub const PACKED_SYMBOLS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/symbols.ttf"));
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PageFont {
+    /// Ubuntu Light: polytonic Greek, rare Latin and Cyrillic letters.
+    Letters,
+    /// Symbols.
+    Symbols,
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl PageFont {
+    /// All, in the order in which a letter is sought in them.
+    pub const ALL: [Self; 2] = [Self::Letters, Self::Symbols];
+
+    /// The name of the part.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Letters => "letters",
+            Self::Symbols => "symbols",
+        }
+    }
+
+    /// The font as gzip.
+    pub const fn packed(self) -> &'static [u8] {
+        match self {
+            Self::Letters => include_bytes!(concat!(env!("OUT_DIR"), "/letters.ttf")),
+            Self::Symbols => include_bytes!(concat!(env!("OUT_DIR"), "/symbols.ttf")),
+        }
+    }
+
+    /// Returns `true` if this font, and none before it, draws a letter of a text.
+    pub fn is_needed(self, text: &str) -> bool {
+        let (before, from_own) = FONTS.embedded.split_at(1 + self as usize);
+        let own = from_own.first();
+        let draws = |c| own.is_some_and(|font| font.draws(c));
+        let is_own = |c| draws(c) && !before.iter().any(|font| font.draws(c));
+        text.chars().any(|c| !c.is_ascii() && is_own(c))
+    }
+}
 
 /// An embedded font, unpacked and parsed when a character first needs it.
 struct EmbeddedFont {
@@ -88,16 +125,6 @@ pub fn add_font(data: Vec<u8>) -> bool {
 /// Returns `true` if a picture since the last call showed a box in place of a letter.
 pub fn has_missed_letters() -> bool {
     FONTS.has_missed.swap(false, Ordering::Relaxed)
-}
-
-/// Returns `true` if a letter of a text is a symbol that the embedded fonts of letters lack.
-#[cfg(not(target_arch = "wasm32"))]
-pub fn needs_symbols(text: &str) -> bool {
-    let [letters @ .., symbols] = &*FONTS.embedded else {
-        return false;
-    };
-    let is_symbol = |c| !letters.iter().any(|font| font.draws(c)) && symbols.draws(c);
-    text.chars().any(|c| !c.is_ascii() && is_symbol(c))
 }
 
 impl Fonts {
@@ -190,19 +217,24 @@ mod tests {
         assert!(!has_missed());
         assert!(fonts.find('⚡', None).is_none() && has_missed());
         assert!(!fonts.add(b"no font".to_vec()));
-        assert!(fonts.add(unpacked(PACKED_SYMBOLS).unwrap().into_owned()));
+        assert!(fonts.add(unpacked(PageFont::Symbols.packed()).unwrap().into_owned()));
         assert!(fonts.find('⚡', None).is_some() && !has_missed());
         assert!(fonts.find('\u{10FFFD}', None).is_none() && has_missed());
     }
 
     #[test]
-    fn symbols_are_told_from_letters() {
+    fn rare_letters_and_symbols_are_told_from_others() {
         for (text, expected) in [
-            ("Größe → Αθήνα №5", false),
-            ("⚡ charger", true),
-            ("漢", false),
+            ("Größe → Αθήνα №5", &[][..]),
+            ("Ἀθῆναι", &[PageFont::Letters]),
+            ("⚡ charger", &[PageFont::Symbols]),
+            ("⚡ Ἀθῆναι", &PageFont::ALL),
+            ("漢", &[]),
         ] {
-            assert_eq!(needs_symbols(text), expected, "{text}");
+            let needed = PageFont::ALL
+                .into_iter()
+                .filter(|font| font.is_needed(text));
+            assert_eq!(needed.collect::<Vec<_>>(), expected, "{text}");
         }
     }
 

@@ -10,7 +10,7 @@
 //! | `halo` | coverage of the letters | coverage of the halo around them |
 //!
 //! A letter that no font draws shows as a box. Text that the embedded fonts cover (Latin, Greek,
-//! Cyrillic and symbols) is the same on every computer; pages add the symbols when they need them.
+//! Cyrillic and symbols) is the same on every computer; pages add what they need.
 
 mod font;
 mod fonts;
@@ -20,7 +20,7 @@ mod shape;
 mod system_fonts;
 
 #[cfg(not(target_arch = "wasm32"))]
-pub use fonts::{PACKED_SYMBOLS, needs_symbols};
+pub use fonts::PageFont;
 pub use fonts::{SystemFont, add_font, has_missed_letters, system_font};
 pub(crate) use rasterize::{Curve, LinePlace};
 pub(crate) use shape::ShapedLine;

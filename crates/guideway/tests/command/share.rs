@@ -16,6 +16,14 @@ fn content<'a>(page: &'a str, id: &str) -> &'a str {
     rest.split_once("</script>").unwrap().0
 }
 
+/// The file that an element of a page holds.
+fn file_in(page: &str, id: &str) -> Vec<u8> {
+    let packed = BASE64_STANDARD.decode(content(page, id)).unwrap();
+    let mut bytes = Vec::new();
+    GzDecoder::new(&*packed).read_to_end(&mut bytes).unwrap();
+    bytes
+}
+
 /// Runs the command in a folder; it must succeed.
 fn run_in(folder: &Path, args: &[&str]) {
     let output = command().args(args).current_dir(folder).output().unwrap();
@@ -38,7 +46,7 @@ fn page_opens_as_its_options_say() {
     let args = [&["share", site, "-o", "a.html"], &view[..], &colors].concat();
     let (page, shared) = share(&args);
     assert_eq!(shared["title"], "Hall <3>");
-    assert_eq!(shared["name"], "site.lif.json");
+    assert_eq!(shared["name"], "site.arrow");
     assert_eq!(shared["look"]["pxPerM"], 40.0);
     assert_eq!(shared["look"]["colorBy"], "maxSpeed");
     assert!(page.contains("connect-src 'none'"));
@@ -46,9 +54,20 @@ fn page_opens_as_its_options_say() {
     let (of_render, shared) = share(&[&["render", site, "-o", "a.html"], &view[..]].concat());
     assert_eq!(shared["look"]["center"], serde_json::json!([12.5, -3.0]));
     assert_eq!(content(&of_render, "layout"), content(&page, "layout"));
-    // Several files are one layout, as Arrow.
-    let (_, shared) = share(&["share", site, site, "-o", "a.html"]);
-    assert_eq!(shared["name"], "site.arrow");
+    // Several files are one layout.
+    let (page_of_two, _) = share(&["share", site, site, "-o", "a.html"]);
+    for (page, paths) in [(page, 326), (page_of_two, 652)] {
+        let file = folder.path().join("of-page.arrow");
+        std::fs::write(file, file_in(&page, "layout")).unwrap();
+        let info = ["info", "of-page.arrow", "--json"];
+        let info = command()
+            .args(info)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let info: Value = serde_json::from_slice(&info.stdout).unwrap();
+        assert_eq!(info["paths"], paths);
+    }
 }
 
 #[test]
@@ -93,11 +112,7 @@ fn page_holds_floor_plan_vehicle_and_palette() {
             assert_eq!(shared["floorPlan"]["name"], name);
             let expected = place.clone().unwrap_or(Value::Null);
             assert_eq!(shared["floorPlan"]["placement"], expected);
-            let packed = content(&page, "floor-plan");
-            let packed = BASE64_STANDARD.decode(packed).unwrap();
-            let mut bytes = Vec::new();
-            let mut unpacked = GzDecoder::new(&packed[..]);
-            unpacked.read_to_end(&mut bytes).unwrap();
+            let bytes = file_in(&page, "floor-plan");
             assert!(bytes.starts_with(start), "{plan}");
         }
     }

@@ -4,13 +4,13 @@
 //! |---|---|
 //! | `args` | files, output, title, view, colors, floor plan, vehicle |
 //! | `page` | the page of this build, with a layout put into it |
-//! | `symbols` | whether the page needs the font of symbols |
+//! | `fonts` | the fonts that the page needs beside its own |
 //! | `run` | reads the files, writes the page, prints the report |
 
 mod args;
+mod fonts;
 mod page;
 mod run;
-mod symbols;
 
 pub(crate) use args::Args;
 pub(crate) use page::SharedLook;

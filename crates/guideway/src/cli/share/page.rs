@@ -6,6 +6,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use guideway::compose::PageFont;
 use guideway::envelope::EnvelopeSource;
 use guideway::layout::UserError;
 use serde::{Serialize, Serializer};
@@ -17,8 +18,8 @@ use crate::cli::packed::unpacked;
 
 /// The page without engine and layout, as gzip: `cargo xtask web` makes it.
 const PAGE: &[u8] = include_bytes!("../../../page/page.html.gz");
-/// The engine, as gzip.
-const ENGINE: &[u8] = include_bytes!("../../../page/engine.wasm.gz");
+/// The engine that reads Arrow, as gzip.
+const ENGINE: &[u8] = include_bytes!("../../../page/engine-arrow.wasm.gz");
 /// The places of the page that engine and layout replace.
 const ENGINE_PLACE: &str = "<!--ENGINE-->";
 const SHARED_PLACE: &str = "<!--SHARED-->";
@@ -68,12 +69,12 @@ fn serialize_vehicle<S: Serializer>(
 
 /// The files that a page holds.
 pub(super) struct PageContent<'a> {
-    /// The layout.
+    /// The layout as Arrow.
     pub(super) layout: &'a [u8],
     /// The floor plan.
     pub(super) plan: Option<&'a PackedPlan>,
-    /// Adds the font of symbols, a third of a megabyte.
-    pub(super) has_symbols: bool,
+    /// The fonts that the layout needs beside that of every page.
+    pub(super) fonts: Vec<PageFont>,
 }
 
 /// Puts a layout and its floor plan into the page. `name` is the name of the layout's file, by
@@ -89,9 +90,9 @@ pub(super) fn page(
 ) -> Result<Vec<u8>, UserError> {
     let mut shared = json!({ "name": name, "title": title, "look": look });
     let mut files = packed("layout", name, content.layout)?;
-    if content.has_symbols {
-        let symbols = BASE64_STANDARD.encode(guideway::compose::PACKED_SYMBOLS);
-        files += &script("text/plain", "symbols", &symbols);
+    for font in &content.fonts {
+        let packed = BASE64_STANDARD.encode(font.packed());
+        files += &script("text/plain", font.name(), &packed);
     }
     if let Some(plan) = content.plan {
         shared["floorPlan"] = described(plan);
@@ -174,18 +175,18 @@ mod tests {
         let content = PageContent {
             layout: b"{}",
             plan: None,
-            has_symbols: true,
+            fonts: PageFont::ALL.to_vec(),
         };
         let made = page("site.json", title, &SharedLook::default(), &content).unwrap();
         let made = String::from_utf8(made).unwrap();
         assert!(!made.contains("alert(1)</script"), "the title is no script");
         assert!(made.contains("connect-src 'none'"));
         let layout = pack(b"{}");
-        let symbols = guideway::compose::PACKED_SYMBOLS;
         for (id, content) in [
             ("engine", ENGINE),
             ("layout", &layout),
-            ("symbols", symbols),
+            ("letters", PageFont::Letters.packed()),
+            ("symbols", PageFont::Symbols.packed()),
         ] {
             let start = format!("id=\"{id}\">");
             let (_, rest) = made.split_once(&start).unwrap();

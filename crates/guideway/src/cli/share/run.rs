@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use guideway::compose::ComposeError;
-use guideway::layout::{Layout, UserError, shown_path};
+use guideway::layout::{UserError, shown_path};
 use guideway::scene::{ColorBy, Scene, SceneOptions};
 use serde_json::json;
 
 use super::args::Args;
+use super::fonts;
 use super::page::{PageContent, SharedLook, page as make_page};
-use super::symbols;
 use crate::cli::error::{Exit, usage_error};
 use crate::cli::input::{self, Input, check_output};
 use crate::cli::layout_output::exact_arrow;
@@ -90,13 +90,16 @@ pub(crate) fn write(
         any.map_err(|reason| ComposeError::NoEnvelope { reason })?;
     }
     let progress = out.progress("packing");
-    let (name, bytes) = content(inputs, &layout)?;
+    let first = &inputs[0].path;
+    let name = file_name(first);
+    // Arrow holds everything, and the engine of the page reads nothing else.
+    let bytes = exact_arrow(&layout, first)?;
     let title = page.title;
     let title = title.unwrap_or_else(|| name.split('.').next().unwrap_or_default());
     let content = PageContent {
         layout: &bytes,
         plan: plan.as_ref(),
-        has_symbols: symbols::are_needed(&layout, title),
+        fonts: fonts::needed(&layout, title),
     };
     let page = make_page(&name, title, look, &content)?;
     let pack_ms = progress.finish();
@@ -122,22 +125,10 @@ pub(crate) fn write(
     Ok(Exit::Clean)
 }
 
-/// The bytes of the layout and the name of its file: the file itself, or Arrow, which holds
-/// everything, of several files or of one that is placed elsewhere.
-fn content(inputs: &[Input], layout: &Layout) -> Result<(String, Vec<u8>), UserError> {
-    let first = &inputs[0];
-    let name = first.path.file_name().unwrap_or_default();
-    let name = name.to_string_lossy().into_owned();
-    let plain = Input {
-        path: first.path.clone(),
-        ..Input::default()
-    };
-    // A pipe can be read once only.
-    if inputs.len() == 1 && *first == plain && first.path.is_file() {
-        return Ok((name, input::read_bytes(&first.path)?));
-    }
-    let bytes = exact_arrow(layout, &first.path)?;
-    Ok((format!("{}.arrow", stem(&name)), bytes))
+/// The name of the layout's file in the page: `site.arrow` for `halls/site.lif.json`.
+fn file_name(layout_file: &Path) -> String {
+    let name = layout_file.file_name().unwrap_or_default();
+    format!("{}.arrow", stem(&name.to_string_lossy()))
 }
 
 /// The name of the page of a layout file: `site.html` for `halls/site.lif.json`.
