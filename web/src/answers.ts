@@ -29,8 +29,16 @@ export interface Summary extends Reference {
   bounds: Box | null;
 }
 
+export interface Cell {
+  name: string;
+  value: string;
+  unit: string | null;
+  /** What a new value is, if the property can be edited. */
+  edited: "number" | "bool" | "text" | null;
+}
+
 export interface Details extends Summary {
-  cells: { name: string; value: string; unit: string | null }[];
+  cells: Cell[];
   outline: Point[][];
 }
 
@@ -48,6 +56,19 @@ export interface Findings {
   warnings: number;
   all: number;
   findings: Finding[];
+}
+
+/** A step of an edit script, as `guideway edit --help` lists them. */
+export type EditStep = { do: string; [member: string]: unknown };
+
+/** What a step has touched: numbers of elements, and the first names. */
+export interface EditedStep {
+  step: number;
+  do: string;
+  paths: number;
+  nodes: number;
+  stations: number;
+  names: string[];
 }
 
 export interface Report {

@@ -1,6 +1,6 @@
 // `<guideway-view>`: a layout in a page of others, with events, and vehicles that move.
 
-import type { Box, Details, Findings, Info, Look, Picture, Point } from "./answers.js";
+import type { Box, Details, EditStep, EditedStep, Findings, Info, Look, Picture, Point } from "./answers.js";
 import type { Placement, Report, Route, Summary } from "./answers.js";
 import { besideModule, compiled, download, nameOf } from "./download.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
@@ -289,6 +289,33 @@ export class GuidewayView extends Base {
     type Saved = { bytes: ArrayBuffer; losses: string[] };
     const { bytes, losses } = await this.call<Saved>("save", [format]);
     return { file: new Blob([bytes]), losses };
+  }
+
+  /** Edits the layout by steps, by all of them or by none; says what each has touched. */
+  async edit(...steps: EditStep[]): Promise<EditedStep[]> {
+    const edited = await this.call<{ info: Info; steps: EditedStep[] }>("edit", [steps]);
+    this.changed(edited.info);
+    return edited.steps;
+  }
+
+  /** Takes the last edit back; `false` if there is none. */
+  async undo(): Promise<boolean> {
+    return this.changed(await this.call<Info | null>("undo"));
+  }
+
+  /** Performs an edit again that was taken back; `false` if there is none. */
+  async redo(): Promise<boolean> {
+    return this.changed(await this.call<Info | null>("redo"));
+  }
+
+  /** The layout was edited: rows may name other elements now. */
+  private changed(info: Info | null): boolean {
+    if (!info) return false;
+    this.opened = info;
+    this.pointer.forget();
+    this.highlighted = [];
+    void this.map.refresh();
+    return true;
   }
 
   private call<T>(...call: Parameters<Engine["call"]>): Promise<T> {

@@ -1,7 +1,7 @@
 // The page: opens files and the shared layout, joins map, panels and engine.
 
 import type { Details, Finding, Info, Picture, Placement, Point } from "./answers.js";
-import type { Reference, Shared } from "./answers.js";
+import type { EditStep, Reference, Shared } from "./answers.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
 import { unpackedText } from "./gzip.js";
 import { GuidewayMap, paintElement } from "./map.js";
@@ -276,6 +276,28 @@ async function showEnvelope(text: string): Promise<void> {
   void map.refresh();
 }
 
+async function edit(step: EditStep): Promise<void> {
+  const of = pointer.selected ?? pointer.hovered;
+  const edited = await busy(t("editing"), () => engine.call<{ info: Info }>("edit", [[step]]));
+  if (edited) await showEdited(edited.info, step.do === "delete" ? undefined : of);
+}
+
+async function takeBack(call: "undo" | "redo"): Promise<void> {
+  const before = await busy(t("editing"), () => engine.call<Info | null>(call));
+  if (before) await showEdited(before);
+}
+
+/** Shows the layout after an edit; the element keeps its row. */
+async function showEdited(edited: Info, of?: Reference): Promise<void> {
+  info = edited;
+  panels.showFacts(info);
+  panels.readLook(map.look);
+  pointer.forget();
+  if (of) pointer.selected = await pointer.details(of).catch(() => undefined);
+  panels.showElement(pointer.selected);
+  void map.refresh();
+}
+
 async function check(): Promise<void> {
   if (!info || panels.hasFindings) return;
   const found = await busy(t("checking"), () =>
@@ -384,6 +406,13 @@ function connect(): void {
     if (tab === "findings") void check();
   };
   panels.ontarget = (target) => void saveAs(target);
+  if (!shared) {
+    panels.onedit = (step) => void edit(step);
+    for (const call of ["undo", "redo"] as const) {
+      byId(call).hidden = false;
+      byId(call).onclick = () => void takeBack(call);
+    }
+  }
   addEventListener("keydown", (event) => {
     const isTyping = event.target instanceof HTMLInputElement;
     if (event.key === "Escape") {
@@ -394,6 +423,11 @@ function connect(): void {
       event.preventDefault();
       panels.tab("find");
       byId("query").focus();
+    } else if (!shared && !isTyping && (event.ctrlKey || event.metaKey)) {
+      const key = event.key.toLowerCase();
+      if (key !== "z" && key !== "y") return;
+      event.preventDefault();
+      void takeBack(key === "y" || event.shiftKey ? "redo" : "undo");
     }
   });
   engine.onprogress = (share) => (byId<HTMLProgressElement>("progress").value = share);

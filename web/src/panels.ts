@@ -1,7 +1,8 @@
 // The panels beside the map: facts, settings, lists. They know the page, and no engine.
 
-import type { Details, Diff, Finding, Findings, Info, Look } from "./answers.js";
+import type { Details, Diff, EditStep, Finding, Findings, Info, Look } from "./answers.js";
 import type { Reference, Summary } from "./answers.js";
+import { field, remove, rename, set } from "./editing.js";
 import { DARK, LIGHT } from "./map.js";
 import { count, meters, t } from "./text.js";
 
@@ -47,14 +48,19 @@ export function cells(list: HTMLElement, pairs: [string, string][]): void {
   }
 }
 
+/** Gives a choice its options; what was chosen stays where it can. */
 function options(id: string, pairs: [string, string][]): void {
-  const all = pairs.map(([value, text]) => new Option(text, value));
-  byId<HTMLSelectElement>(id).replaceChildren(...all);
+  const choice = byId<HTMLSelectElement>(id);
+  const { value: chosen } = choice;
+  choice.replaceChildren(...pairs.map(([value, text]) => new Option(text, value)));
+  if (pairs.some(([value]) => value === chosen)) choice.value = chosen;
 }
 
 export class Panels {
   onlook: () => void = () => {};
   ontab: (tab: string) => void = () => {};
+  /** Edits an element; pages that only show have none. */
+  onedit: ((step: EditStep) => void) | undefined;
   ontarget: (target: Info["targets"][number]) => void = () => {};
   hasFindings = false;
   /** The numbers at the ends of the palette, of whoever shared the layout. */
@@ -160,6 +166,17 @@ export class Panels {
   }
 
   showInfo(info: Info): void {
+    this.showFacts(info);
+    for (const name of SWITCHES) this.check(name, ALWAYS.includes(name) || info.paths < MANY);
+    this.check("grid", false);
+    for (const target of info.targets) {
+      item(byId("targets"), target.name, "", () => this.ontarget(target));
+    }
+  }
+
+  /** What may differ after an edit. */
+  showFacts(info: Info): void {
+    this.hasFindings = false;
     const [minX, minY, maxX, maxY] = info.bounds ?? [0, 0, 0, 0];
     const facts: [string, string][] = [
       [t("File"), info.name],
@@ -180,11 +197,6 @@ export class Panels {
     const types = info.vehicleTypes.map((name): [string, string] => [name, name]);
     options("vehicle-type", types);
     byId("vehicle-type").hidden = types.length < 2;
-    for (const name of SWITCHES) this.check(name, ALWAYS.includes(name) || info.paths < MANY);
-    this.check("grid", false);
-    for (const target of info.targets) {
-      item(byId("targets"), target.name, "", () => this.ontarget(target));
-    }
   }
 
   /** The length of all paths, which is known after all else. */
@@ -205,6 +217,21 @@ export class Panels {
       element.cells.map(({ name, value, unit }) => [name, unit ? `${value} ${unit}` : value]),
     );
     place.append(title, list);
+    const { onedit } = this;
+    if (!onedit) return;
+    title.replaceChildren(
+      `${element.kind} `,
+      field(t("Name"), element.id, element.id, (to) => onedit(rename(element, to))),
+    );
+    element.cells.forEach((cell, at) => {
+      const text = list.querySelectorAll("dd")[at]!;
+      const onset = (typed: string) => onedit(set(element, cell, typed));
+      if (cell.edited) text.replaceChildren(field(cell.name, text.textContent!, cell.value, onset));
+    });
+    const button = document.createElement("button");
+    button.textContent = t("Delete");
+    button.onclick = () => onedit(remove(element));
+    place.append(button);
   }
 
   showFound(found: Summary[], words: string, fly: (of: Reference) => void = () => {}): void {

@@ -57,8 +57,14 @@ function opened(): Session {
 /** Fails where the engine reads layouts, and does nothing else with files. */
 function requireFiles(): void {
   if ("save" in Session.prototype) return;
-  const message = "This engine reads layouts of Arrow; it writes and compares none";
+  const message = "This engine reads layouts of Arrow; it edits, writes and compares none";
   throw JSON.stringify({ code: "usage", message, remedy: "Take the whole engine" });
+}
+
+/** Undoes or redoes; answers the layout that is open then, or `null` if there was nothing. */
+function afterwards(act: (layout: Session) => boolean): unknown {
+  requireFiles();
+  return act(opened()) ? JSON.parse(opened().info()) : null;
 }
 
 function replace(name: string, bytes: Uint8Array): unknown {
@@ -94,6 +100,13 @@ export const calls: Record<string, (...args: never[]) => unknown> = {
   find: (text: string, limit: number) => JSON.parse(opened().find(text, limit)),
   query: (text: string, limit: number) => JSON.parse(opened().query(text, limit)),
   route: (ends: unknown) => JSON.parse(opened().route(JSON.stringify(ends))),
+  edit: (steps: unknown[]) => {
+    requireFiles();
+    const { steps: done } = JSON.parse(opened().edit(JSON.stringify({ steps })));
+    return { info: JSON.parse(opened().info()), steps: done };
+  },
+  undo: () => afterwards((layout) => layout.undo()),
+  redo: () => afterwards((layout) => layout.redo()),
   diff: (name: string, bytes: ArrayBuffer, most: number) => {
     requireFiles();
     const other = new Session(name, new Uint8Array(bytes));

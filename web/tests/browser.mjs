@@ -193,10 +193,59 @@ async function handsAndKeysWork() {
   guideway("convert", site, join(folder, "site.dxf"), "--quiet");
   const [made, expected] = [await saved.path(), join(folder, "site.dxf")];
   assert.ok(readFileSync(made).equals(readFileSync(expected)), "the DXF file differs");
+  await editsAreMadeInPlace(page, settle);
   // An engine that stops leaves a page that opens the next file.
   await page.evaluate(() => guideway.engine.restart("stopped by the test"));
   await load(page, site);
   await page.context().close();
+}
+
+/** Types a value of the selected element, renames and deletes elements, and takes edits back. */
+async function editsAreMadeInPlace(page, settle) {
+  const select = async (name) => {
+    await page.click("[data-tab=find]");
+    await page.fill("#query", name);
+    await page.waitForSelector("#found button");
+    await settle(() => page.click("#found button"));
+    await page.click("[data-tab=layout]");
+  };
+  const type = async (label, text, key = "Enter") => {
+    await page.click(`#element .value[title$=": ${label}"]`);
+    await page.fill("#element input", text);
+    await page.press("#element input", key);
+  };
+  const says = (words) =>
+    page.waitForFunction((words) => {
+      return document.querySelector("#element").textContent.includes(words);
+    }, words);
+  await select("dock-1-002--dock-1-003");
+  await type("maxSpeed", "9", "Escape");
+  await says("0.3 m/s");
+  await settle(() => type("maxSpeed", "0.75"));
+  await says("0.75 m/s");
+  await type("maxSpeed", "fast");
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.textContent("#notice-text"), /step 1.*set/);
+  await page.click("#notice-close");
+  await select("cross-171");
+  await settle(() => type("Name", "gate"));
+  await says("gate");
+  await settle(() => type("x", "90.5"));
+  await page.screenshot({ path: join(shots, "edited.png") });
+  const edited = await page.evaluate(() => guideway.engine.call("save", ["lif1"]));
+  assert.ok(edited.bytes, "the edited layout is saved");
+  const paths = () => page.evaluate(async () => (await guideway.engine.call("find", ["", 1000])).length);
+  const before = await paths();
+  await settle(() => page.click("#element > button"));
+  assert.ok((await paths()) < before, "the node is still there");
+  for (let i = 0; i < 4; i++) await settle(() => page.click("#undo"));
+  await select("cross-171");
+  await settle(() => page.keyboard.press("Control+y"));
+  await select("dock-1-002--dock-1-003");
+  await says("0.75 m/s");
+  await settle(() => page.keyboard.press("Control+z"));
+  await select("dock-1-002--dock-1-003");
+  await says("0.3 m/s");
 }
 
 /** A layout whose names have symbols and rare letters, for which the page has fonts of their own. */
@@ -310,6 +359,7 @@ async function sharedLayoutsAreWhole() {
     await page.waitForFunction(() => guideway.map.drawn > 0);
     const made = await pngOf(page, { width: 640, height: 400, ...marks });
     assert.ok(isSame(made, readFileSync(expected)), `${layout}: the shared picture differs`);
+    assert.ok(await page.isHidden("#undo"), "a shared page edits nothing");
     assert.ok(await page.isHidden("#compare"), "the engine of a shared page compares nothing");
     await page.click("[data-tab=export]");
     const [saved] = await Promise.all([

@@ -92,6 +92,15 @@ async function showsWhatTheCommandDraws() {
   };
   assert.ok(isThatOf("--legend"), "the picture differs");
   assert.ok(!isThatOf(), "a picture without legend is the same");
+  const edited = await page.evaluate(async () => {
+    const step = { do: "rename", station: "dock-1", to: "gate" };
+    const [{ names }] = await view.edit(step);
+    const found = (await view.find("gate"))[0].id;
+    const refused = await view.edit({ ...step, to: "" }).catch((error) => error.message);
+    return { names, found, refused, back: [await view.undo(), await view.undo()] };
+  });
+  assert.deepEqual([edited.names, edited.found, edited.back], [["gate"], "gate", [true, false]]);
+  assert.match(edited.refused, /step 1/);
   const saved = await page.evaluate(async () => (await view.save("dxf")).file.text());
   guideway("convert", site, join(folder, "element.dxf"), "--quiet");
   assert.equal(saved, readFileSync(join(folder, "element.dxf"), "utf8"));

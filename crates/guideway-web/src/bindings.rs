@@ -137,6 +137,21 @@ impl JsSession {
         saved.map(JsSaved).map_err(thrown)
     }
 
+    /// See [`Session::edit`].
+    pub fn edit(&mut self, script: &str) -> Result<String, JsValue> {
+        work(|| self.0.edit(script)).map_err(thrown)
+    }
+
+    /// See [`Session::undo`].
+    pub fn undo(&mut self) -> bool {
+        self.0.undo()
+    }
+
+    /// See [`Session::redo`].
+    pub fn redo(&mut self) -> bool {
+        self.0.redo()
+    }
+
     /// See [`Session::diff`].
     pub fn diff(&self, other: &JsSession, most: usize) -> String {
         work(|| self.0.diff(&other.0, most))

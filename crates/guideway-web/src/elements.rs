@@ -39,17 +39,32 @@ pub(crate) fn details(layout: &Layout, index: &Index, element: Element) -> Value
     let (of, row) = element.table_row();
     let columns = Column::all(layout, of);
     let cells = columns.iter().filter_map(|column| {
-        let (value, is_number) = column.with_value(layout, of, row, |value| {
-            let is_number = matches!(value, Cell::Int(_) | Cell::Float(_));
-            (value.to_string(), is_number)
+        let (value, kind) = column.with_value(layout, of, row, |value| {
+            let kind = match value {
+                Cell::Int(_) | Cell::Float(_) => Some("number"),
+                Cell::Bool(_) => Some("bool"),
+                Cell::Text(_) => Some("text"),
+                Cell::Json(_) => None,
+            };
+            (value.to_string(), kind)
         })?;
-        let unit = column.unit(layout, of).filter(|_| is_number);
-        Some(json!({ "name": column.name(), "value": value, "unit": unit }))
+        let unit = column.unit(layout, of).filter(|_| kind == Some("number"));
+        let edited = kind.filter(|_| is_edited(column, of));
+        Some(json!({ "name": column.name(), "value": value, "unit": unit, "edited": edited }))
     });
     let mut details = summary(layout, index, element);
     details["cells"] = cells.collect();
     details["outline"] = json!(outline(layout, element));
     details
+}
+
+/// Returns `true` if the step `set` of a script changes a column, or `move-node`.
+fn is_edited(column: &Column, of: Table) -> bool {
+    match column {
+        Column::Attribute(_) => true,
+        Column::X | Column::Y => of == Table::Nodes,
+        _ => false,
+    }
 }
 
 /// Elements whose identifier contains a text, exact ones first.

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `session` | opens a layout; pictures, findings, routes |
 //! | `look` | what a picture shows, as the page asks for it |
+//! | `edits` | edits by scripts, and undo, with the feature `files` |
 //! | `files` | layouts in files of all formats, with the feature `files`; differences of two |
 //! | `floor_plan` | the drawing or the image below the paths |
 //! | `elements` | properties, outlines, hit test, search |
@@ -19,6 +20,8 @@
 mod answers;
 #[cfg(target_arch = "wasm32")]
 mod bindings;
+#[cfg(feature = "files")]
+mod edits;
 mod elements;
 #[cfg(target_arch = "wasm32")]
 mod file;

@@ -19,6 +19,8 @@ use guideway::{SaveError, write_png_by};
 use serde_json::{Value, json};
 
 use crate::answers;
+#[cfg(feature = "files")]
+use crate::edits::History;
 use crate::elements;
 use crate::floor_plan;
 use crate::look::{Look, RouteEnds, SceneKey, Shade, usage, vehicle};
@@ -30,6 +32,8 @@ const MAX_CANDIDATES: usize = 100_000;
 pub struct Session {
     pub(crate) name: String,
     pub(crate) layout: Arc<Layout>,
+    #[cfg(feature = "files")]
+    pub(crate) history: History,
     index: OnceLock<Arc<Index>>,
     scene: Option<(SceneKey, Arc<Scene>)>,
     method: KeptMethod,
@@ -72,6 +76,8 @@ impl Session {
         Ok(Self {
             name: name.to_owned(),
             layout: Arc::new(read_parts(name, file, &options)?),
+            #[cfg(feature = "files")]
+            history: History::default(),
             index: OnceLock::new(),
             scene: None,
             method: KeptMethod::default(),
@@ -243,6 +249,14 @@ impl Session {
             .map_err(|error| usage(format!("the ends of the route: {error}")))?;
         let route = self.find_route(&ends)?;
         Ok(guideway::json::route(&self.layout, &route).to_string())
+    }
+
+    /// Opens another version of the layout; returns the one before.
+    #[cfg(feature = "files")]
+    pub(crate) fn replace(&mut self, layout: Arc<Layout>) -> Arc<Layout> {
+        (self.scene, self.widths, self.shown) = (None, None, None);
+        self.index = OnceLock::new();
+        std::mem::replace(&mut self.layout, layout)
     }
 
     fn index(&self) -> &Index {

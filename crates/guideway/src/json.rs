@@ -1,11 +1,16 @@
-//! A layout and its routes as JSON, for programs in other languages.
+//! A layout, its routes and its edits as JSON, for programs in other languages.
 
 use std::ops::Range;
 
 use guideway_formats::Target;
 use guideway_layout::Layout;
 use guideway_network::Route;
+#[cfg(feature = "script")]
+use guideway_scene::Table;
 use serde_json::{Value, json};
+
+#[cfg(feature = "script")]
+use crate::script::{AppliedStep, SHOWN_NAMES};
 
 /// Columns by which paths can be colored, beside those of the file.
 const BUILT_IN: [&str; 3] = ["level", "direction", "vehicle_type"];
@@ -60,6 +65,22 @@ pub fn counts(layout: &Layout) -> Value {
         "targets": targets.collect::<Vec<_>>(),
         "source": Target::of_source(layout).map(Target::id),
         "isDrawing": layout.is_drawing(),
+    })
+}
+
+/// What a step of an edit script has touched.
+#[cfg(feature = "script")]
+pub fn edit_step(step: &AppliedStep, number: usize) -> Value {
+    let touched = &step.touched;
+    json!({
+        "step": number,
+        "do": step.name,
+        "paths": touched.count(Table::Paths),
+        "nodes": touched.count(Table::Nodes),
+        "stations": touched.count(Table::Stations),
+        "names": touched.names.iter().take(SHOWN_NAMES).collect::<Vec<_>>(),
+        "lost": touched.lost,
+        "ms": step.ms,
     })
 }
 

@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use guideway::formats::Target;
+use guideway::json::edit_step;
 use guideway::layout::{UserError, shown_path};
 use guideway::scene::Table;
 use guideway::script::{self, Applied, AppliedStep, SHOWN_NAMES, Script};
@@ -72,7 +73,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "script": args.script.to_string_lossy(),
         "output": output.map(|output| output.to_string_lossy()),
         "dry_run": args.dry_run,
-        "steps": steps.iter().zip(1..).map(step_json).collect::<Vec<_>>(),
+        "steps": steps.iter().zip(1..).map(|(step, number)| edit_step(step, number)).collect::<Vec<_>>(),
         "refused": refused,
         "not_stored": written.as_ref().map_or(json!([]), Written::losses_json),
         "ms": { "read": read_ms, "edit": edit_ms, "write": write_ms, "total": total_ms },
@@ -114,20 +115,6 @@ fn read_script(path: &Path) -> Result<Script, UserError> {
     script.map_err(|error| {
         let message = format!("{}: {}", shown_path(path), error.message);
         UserError { message, ..error }
-    })
-}
-
-fn step_json((step, number): (&AppliedStep, u32)) -> Value {
-    let touched = &step.touched;
-    json!({
-        "step": number,
-        "do": step.name,
-        "paths": touched.count(Table::Paths),
-        "nodes": touched.count(Table::Nodes),
-        "stations": touched.count(Table::Stations),
-        "names": touched.names.iter().take(SHOWN_NAMES).collect::<Vec<_>>(),
-        "lost": touched.lost,
-        "ms": step.ms,
     })
 }
 
