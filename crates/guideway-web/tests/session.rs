@@ -280,7 +280,8 @@ fn wrong_looks_are_errors() {
 #[test]
 fn edits_are_those_of_scripts_and_can_be_taken_back() {
     let mut session = site();
-    let find = |session: &Session, name: &str| parsed(&session.find(name, 1)).as_array().unwrap().len();
+    let find =
+        |session: &Session, name: &str| parsed(&session.find(name, 1)).as_array().unwrap().len();
     let cell = |session: &Session, name: &str| {
         let row = parsed(&session.find("dock-1-002--dock-1-003", 1))[0]["row"].clone();
         let row = u32::try_from(row.as_u64().unwrap()).unwrap();
@@ -298,7 +299,10 @@ fn edits_are_those_of_scripts_and_can_be_taken_back() {
     assert_eq!(done["steps"][0]["names"], json!(["gate"]));
     assert_eq!(done["steps"][1]["paths"], 1);
     let left = parsed(&session.info())["paths"].clone();
-    assert_eq!(done["steps"][2]["paths"].as_u64().unwrap() + left.as_u64().unwrap(), 326);
+    assert_eq!(
+        done["steps"][2]["paths"].as_u64().unwrap() + left.as_u64().unwrap(),
+        326
+    );
     assert_ne!(session.render(&look().to_string()).unwrap().rgba, before);
 
     // A step that fails leaves all as it was, and is refused in the words of the command.
@@ -307,11 +311,20 @@ fn edits_are_those_of_scripts_and_can_be_taken_back() {
         { "do": "rename", "node": "nowhere", "to": "x" },
     ]});
     let error = session.edit(&failing.to_string()).unwrap_err();
-    assert!(error.message.contains("step 2") && error.message.contains("nowhere"), "{error:?}");
+    assert!(
+        error.message.contains("step 2") && error.message.contains("nowhere"),
+        "{error:?}"
+    );
     assert_eq!(find(&session, "gate"), 1);
 
     assert!(session.undo() && !session.undo());
-    assert_eq!((find(&session, "gate"), parsed(&session.info())["paths"].as_u64()), (0, Some(326)));
+    assert_eq!(
+        (
+            find(&session, "gate"),
+            parsed(&session.info())["paths"].as_u64()
+        ),
+        (0, Some(326))
+    );
     assert_eq!(session.render(&look().to_string()).unwrap().rgba, before);
     assert_eq!(cell(&session, "maxSpeed")["value"], "0.3");
     assert_eq!(cell(&session, "maxSpeed")["edited"], "number");

@@ -9,7 +9,7 @@ use guideway::json::edit_step;
 use guideway::layout::{UserError, shown_path};
 use guideway::scene::Table;
 use guideway::script::{self, Applied, AppliedStep, SHOWN_NAMES, Script};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::error::{self, Exit};
 use super::input::{self, Input};
