@@ -5,12 +5,13 @@ use eframe::egui::{Context, KeyboardShortcut};
 use super::{Language, language};
 
 /// German keyboards have other names on their keys.
-const GERMAN: [(&str, &str); 14] = [
+const GERMAN: [(&str, &str); 15] = [
     ("Backspace", "Rücktaste"),
     ("Ctrl", "Strg"),
     ("Delete", "Entf"),
     ("Down", "Unten"),
     ("Enter", "Eingabe"),
+    ("Equals", "Gleich"),
     ("Escape", "Esc"),
     ("Home", "Pos1"),
     ("Insert", "Einfg"),
@@ -48,5 +49,6 @@ mod tests {
         assert_eq!(german("Ctrl+Shift+S"), "Strg+Umschalt+S");
         assert_eq!(german("Alt+Left"), "Alt+Links");
         assert_eq!(german("F2"), "F2");
+        assert_eq!(german("Equals"), "Gleich");
     }
 }
