@@ -1,4 +1,4 @@
-// The answers of the engine, as crates/guideway-web/src/answers.rs and elements.rs write them.
+// The answers of the engine, as crates/guideway-web/src and crates/guideway/src/json.rs write them.
 
 export type Point = [number, number];
 export type Box = [number, number, number, number];

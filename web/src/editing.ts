@@ -32,7 +32,7 @@ export function set(of: Details, cell: Cell, typed: string): EditStep {
 /** Numbers and truth values; other text stays text, which the engine refuses by name. */
 function parsed(text: string): unknown {
   const number = Number(text.replace(",", "."));
-  if (!Number.isNaN(number)) return number;
+  if (Number.isFinite(number)) return number;
   return text === "true" || text === "false" ? text === "true" : text;
 }
 

@@ -1,6 +1,7 @@
 // `<guideway-view>`: a layout in a page of others, with events, and vehicles that move.
 
-import type { Box, Details, EditStep, EditedStep, Findings, Info, Look, Picture, Point } from "./answers.js";
+import type { Box, Details, EditStep, EditedStep, Findings, Info } from "./answers.js";
+import type { Look, Picture, Point } from "./answers.js";
 import type { Placement, Report, Route, Summary } from "./answers.js";
 import { besideModule, compiled, download, nameOf } from "./download.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
@@ -293,26 +294,29 @@ export class GuidewayView extends Base {
 
   /** Edits the layout by steps, by all of them or by none; says what each has touched. */
   async edit(...steps: EditStep[]): Promise<EditedStep[]> {
+    const before = this.opened;
     const edited = await this.call<{ info: Info; steps: EditedStep[] }>("edit", [steps]);
-    this.changed(edited.info);
+    this.changed(before, edited.info);
     return edited.steps;
   }
 
   /** Takes the last edit back; `false` if there is none. */
   async undo(): Promise<boolean> {
-    return this.changed(await this.call<Info | null>("undo"));
+    return this.changed(this.opened, await this.call<Info | null>("undo"));
   }
 
   /** Performs an edit again that was taken back; `false` if there is none. */
   async redo(): Promise<boolean> {
-    return this.changed(await this.call<Info | null>("redo"));
+    return this.changed(this.opened, await this.call<Info | null>("redo"));
   }
 
-  /** The layout was edited: rows may name other elements now. */
-  private changed(info: Info | null): boolean {
+  /** The layout was edited, unless another one is open by now: rows may name other elements. */
+  private changed(before: Info | undefined, info: Info | null): boolean {
     if (!info) return false;
+    if (before !== this.opened) return true;
     this.opened = info;
     this.pointer.forget();
+    this.last.clear();
     this.highlighted = [];
     void this.map.refresh();
     return true;

@@ -186,6 +186,8 @@ map.onpoint = async (x, y, isClick) => {
     if (isClick) addPoint(map.world([x, y]));
     return;
   }
+  // What is being typed stays where it is.
+  if (!isClick && byId("element").querySelector("input")) return;
   try {
     if (!(await pointer.point([x, y], isClick, map.scale))) return;
     if (isClick && pointer.selected) panels.tab("layout");
@@ -277,12 +279,13 @@ async function showEnvelope(text: string): Promise<void> {
 }
 
 async function edit(step: EditStep): Promise<void> {
-  const of = pointer.selected ?? pointer.hovered;
+  const of = pointer.hovered ?? pointer.selected;
   const edited = await busy(t("editing"), () => engine.call<{ info: Info }>("edit", [[step]]));
   if (edited) await showEdited(edited.info, step.do === "delete" ? undefined : of);
 }
 
 async function takeBack(call: "undo" | "redo"): Promise<void> {
+  if (!info) return;
   const before = await busy(t("editing"), () => engine.call<Info | null>(call));
   if (before) await showEdited(before);
 }
@@ -295,6 +298,11 @@ async function showEdited(edited: Info, of?: Reference): Promise<void> {
   pointer.forget();
   if (of) pointer.selected = await pointer.details(of).catch(() => undefined);
   panels.showElement(pointer.selected);
+  // What was found may be gone, and the ends of a route too.
+  panels.clearFound();
+  await find(byId<HTMLInputElement>("query").value);
+  if (map.look.route) await showRoute();
+  if (map.look.envelope) await showEnvelope(map.look.envelope);
   void map.refresh();
 }
 
@@ -414,7 +422,8 @@ function connect(): void {
     }
   }
   addEventListener("keydown", (event) => {
-    const isTyping = event.target instanceof HTMLInputElement;
+    const { target } = event;
+    const isTyping = target instanceof HTMLInputElement && target.type !== "checkbox";
     if (event.key === "Escape") {
       setMeasuring(false);
       pointer.selected = pointer.hovered = undefined;

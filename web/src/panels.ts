@@ -174,9 +174,16 @@ export class Panels {
     }
   }
 
+  /** Empties the lists of elements, whose rows are others after an edit. */
+  clearFound(): void {
+    this.hasFindings = false;
+    for (const id of ["findings", "changes"]) byId(id).replaceChildren();
+    byId("findings-count").textContent = "";
+    if (!byId("tab-findings").hidden) this.ontab("findings");
+  }
+
   /** What may differ after an edit. */
   showFacts(info: Info): void {
-    this.hasFindings = false;
     const [minX, minY, maxX, maxY] = info.bounds ?? [0, 0, 0, 0];
     const facts: [string, string][] = [
       [t("File"), info.name],

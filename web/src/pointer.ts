@@ -10,12 +10,12 @@ export class Pointer {
   hovered: Details | undefined;
   selected: Details | undefined;
   private isAsking = false;
-  /** Counts the layouts: an answer about another one is late. */
+  /** Counts the layouts and their edits: an answer about another one is late. */
   private layouts = 0;
 
   constructor(private readonly call: Engine["call"]) {}
 
-  /** Another layout is open. */
+  /** The layout is another one, or was edited. */
   forget(): void {
     this.layouts++;
     this.hovered = this.selected = undefined;

@@ -25,6 +25,8 @@ export function threadCount(scope: Scope = globalThis): number {
 
 export class Threads {
   private readonly workers: Worker[] = [];
+  /** Ends a start that is not over. */
+  private cancel: (reason: Error) => void = () => {};
 
   /** `onfail` hears of each thread that does not start, or stops later. */
   constructor(private readonly onfail: (reason: string) => void) {}
@@ -50,13 +52,21 @@ export class Threads {
         worker.onerror = ({ message }) => fail(message || "a thread did not start");
         worker.postMessage({ id: 0, call: "thread", args: [engine, memory] });
       });
+    let timer = 0;
     const late = new Promise<void>((_, reject) => {
-      setTimeout(() => reject(new Error("the threads did not start in time")), START_MS);
+      this.cancel = reject;
+      const words = "the threads did not start in time";
+      timer = setTimeout(() => reject(new Error(words)), START_MS) as unknown as number;
     });
-    await Promise.race([Promise.all(Array.from({ length: count }, one)), late]);
+    try {
+      await Promise.race([Promise.all(Array.from({ length: count }, one)), late]);
+    } finally {
+      clearTimeout(timer);
+    }
   }
 
   stop(): void {
+    this.cancel(new Error("stopped"));
     for (const worker of this.workers) worker.terminate();
   }
 }

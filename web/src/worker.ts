@@ -50,7 +50,8 @@ function render(look: { width: number; height: number }) {
 }
 
 function opened(): Session {
-  if (!session) throw JSON.stringify({ code: "usage", message: "No layout is open", remedy: "" });
+  const remedy = "Open one";
+  if (!session) throw JSON.stringify({ code: "usage", message: "No layout is open", remedy });
   return session;
 }
 

@@ -1,5 +1,5 @@
-//! The parts of `cargo xtask dist`: release builds to packages that install, with checksums and a bill of
-//! materials.
+//! The parts of `cargo xtask dist`: release builds to packages that install, with checksums and a
+//! bill of materials.
 //!
 //! | module | purpose |
 //! |---|---|

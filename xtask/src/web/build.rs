@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result};
 
 use super::sources::{self, PAGE};
 use super::threads;
@@ -120,14 +120,17 @@ fn zstd_flags() -> String {
     format!("{} {}", excluded.join(" "), short.join(" "))
 }
 
-/// The folder with the fonts that the build of the engine has written.
+/// The folder with the fonts that the last build of an engine has written.
 fn fonts(folder: &Path) -> Result<PathBuf> {
     let built = folder.join("cargo").join(TARGET).join("web/build");
+    let mut found = Vec::new();
     for entry in std::fs::read_dir(&built)? {
         let fonts = entry?.path().join("out");
-        if fonts.join("letters.ttf").exists() {
-            return Ok(fonts);
+        if let Ok(letters) = std::fs::metadata(fonts.join("letters.ttf")) {
+            found.push((letters.modified()?, fonts));
         }
     }
-    bail!("no fonts in {}", built.display())
+    let newest = found.into_iter().max();
+    let (_, fonts) = newest.with_context(|| format!("no fonts in {}", built.display()))?;
+    Ok(fonts)
 }

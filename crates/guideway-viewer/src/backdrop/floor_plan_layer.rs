@@ -136,8 +136,12 @@ impl FloorPlanLayer {
         let before = std::mem::take(self);
         self.is_dark = is_dark;
         self.set(text, services, repaint);
-        let has_plan = before.ready.is_some() && !self.is_empty();
-        self.before = has_plan.then(|| Box::new(before));
+        // One that is still being read has shown nothing: the one before it stays.
+        let shown = match before.ready {
+            Some(_) => Some(Box::new(before)),
+            None => before.before,
+        };
+        self.before = shown.filter(|_| !self.is_empty());
     }
 
     /// Shows the plan at another place. The old one stays until it is read anew.
@@ -226,7 +230,12 @@ impl FloorPlanLayer {
             Err(error) => {
                 let error = error.to_string();
                 match self.before.take() {
-                    Some(before) => *self = *before,
+                    Some(before) => {
+                        *self = Self {
+                            is_dark: self.is_dark,
+                            ..*before
+                        };
+                    }
                     None => self.read_error = Some(error.clone()),
                 }
                 Some(Err(error))

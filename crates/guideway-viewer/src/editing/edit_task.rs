@@ -1,12 +1,13 @@
 //! One edit of a document, as a closure that can run on another thread.
 
-use std::sync::mpsc::{self, Receiver, TryRecvError};
+use std::sync::mpsc::{self, Receiver, SendError, TryRecvError};
 use std::time::Duration;
 
 use guideway_document::Document;
 
 use super::journal::Journal;
 use super::notice::Notice;
+use crate::language::t;
 
 /// Longest time that a frame waits for an edit before it continues without the document: half a
 /// frame at 60 Hz.
@@ -61,9 +62,9 @@ impl EditTask {
     pub(crate) fn with_outcome(self) -> (Self, EditOutcome) {
         let (send, outcome) = mpsc::channel();
         let told = Self(Box::new(move |document, journal| {
-            // The asker may not wait any more.
-            let _ = send.send(self.run(document, journal));
-            Ok(())
+            // Where the asker does not wait any more, the user hears of it as of other edits.
+            let sent = send.send(self.run(document, journal));
+            sent.or_else(|SendError(result)| result)
         }));
         (told, EditOutcome(outcome))
     }
@@ -86,12 +87,14 @@ impl EditTask {
 pub(crate) struct EditOutcome(Receiver<Result<(), Notice>>);
 
 impl EditOutcome {
-    /// The result, once there is one. An edit that never ran, since its document was replaced, is
-    /// none that was refused.
+    /// The result, once there is one. An edit that never ran, since its document was replaced or
+    /// in use, is refused.
     pub(crate) fn poll(&self) -> Option<Result<(), Notice>> {
         match self.0.try_recv() {
             Ok(result) => Some(result),
-            Err(TryRecvError::Disconnected) => Some(Ok(())),
+            Err(TryRecvError::Disconnected) => {
+                Some(Err(t("the layout is in use; try again").to_owned()))
+            }
             Err(TryRecvError::Empty) => None,
         }
     }
