@@ -15,7 +15,7 @@ impl<I: Iterator> IntoIterator for Sequential<I> {
     }
 }
 
-/// What becomes a sequential iterator: whatever becomes an iterator.
+/// Becomes a sequential iterator, as all do that become iterators.
 pub trait IntoParallelIterator: IntoIterator + Sized {
     /// The iterator.
     fn into_par_iter(self) -> Sequential<Self::IntoIter> {
@@ -25,7 +25,7 @@ pub trait IntoParallelIterator: IntoIterator + Sized {
 
 impl<T: IntoIterator> IntoParallelIterator for T {}
 
-/// What has a sequential iterator of references.
+/// Has a sequential iterator of references.
 pub trait IntoParallelRefIterator<'a> {
     /// The iterator.
     type Iter: Iterator;
@@ -45,7 +45,7 @@ where
     }
 }
 
-/// What has a sequential iterator of references by which the items may change.
+/// Has a sequential iterator of references by which the items may change.
 pub trait IntoParallelRefMutIterator<'a> {
     /// The iterator.
     type Iter: Iterator;
@@ -65,7 +65,7 @@ where
     }
 }
 
-/// What takes more items.
+/// Takes more items.
 pub trait ParallelExtend<T> {
     /// Adds the items.
     fn par_extend(&mut self, items: impl IntoIterator<Item = T>);

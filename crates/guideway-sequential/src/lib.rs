@@ -1,4 +1,5 @@
-//! The part of [rayon](https://docs.rs/rayon)'s interface that Guideway uses, on the calling thread.
+//! The part of [rayon](https://docs.rs/rayon)'s interface that Guideway uses, on the thread that
+//! calls.
 //!
 //! An engine for browsers without threads has nobody to share its work with, and rayon's own code
 //! is a fourteenth of it. There the crates of Guideway depend on this one by the name `rayon`. A
@@ -26,7 +27,7 @@ pub mod prelude {
     pub use crate::slice::{ParallelSlice, ParallelSliceMut};
 }
 
-/// Whether [`yield_now`] found work.
+/// Tells if [`yield_now`] found work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Yield {
     /// It ran a task.

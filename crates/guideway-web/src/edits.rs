@@ -3,39 +3,11 @@
 use std::sync::Arc;
 
 use guideway::formats::ReadOptions;
-use guideway::layout::{Layout, UserError};
+use guideway::layout::UserError;
 use guideway::script::{Applied, Script};
 use serde_json::{Value, json};
 
 use crate::session::Session;
-
-/// Most layouts that are kept for undo, and most paths of them together: the memory of an engine
-/// never shrinks.
-const MAX_LAYOUTS: usize = 100;
-const MAX_PATHS: usize = 2_000_000;
-
-/// The layouts before and after the open one.
-#[derive(Default)]
-pub(crate) struct History {
-    before: Vec<Arc<Layout>>,
-    after: Vec<Arc<Layout>>,
-}
-
-impl History {
-    /// Keeps the layout before an edit. The oldest ones go where there are too many.
-    fn push(&mut self, layout: Arc<Layout>) {
-        self.after.clear();
-        self.before.push(layout);
-        let mut paths = 0;
-        let newest = self.before.iter().rev().take(MAX_LAYOUTS);
-        let kept = newest.take_while(|layout| {
-            paths += layout.paths.len();
-            paths <= MAX_PATHS
-        });
-        let dropped = self.before.len() - kept.count();
-        self.before.drain(..dropped);
-    }
-}
 
 impl Session {
     /// Edits the layout by a script, such as `{"steps": [{"do": "rename", "node": "N7", "to":
@@ -58,21 +30,19 @@ impl Session {
 
     /// Takes the last edit back. Returns `false` if there is none.
     pub fn undo(&mut self) -> bool {
-        let Some(layout) = self.history.before.pop() else {
+        let Some(layout) = self.history.undone(Arc::clone(&self.layout)) else {
             return false;
         };
-        let after = self.replace(layout);
-        self.history.after.push(after);
+        self.replace(layout);
         true
     }
 
     /// Performs an edit again that was taken back. Returns `false` if there is none.
     pub fn redo(&mut self) -> bool {
-        let Some(layout) = self.history.after.pop() else {
+        let Some(layout) = self.history.redone(Arc::clone(&self.layout)) else {
             return false;
         };
-        let before = self.replace(layout);
-        self.history.before.push(before);
+        self.replace(layout);
         true
     }
 }

@@ -58,7 +58,7 @@ pub(crate) fn details(layout: &Layout, index: &Index, element: Element) -> Value
     details
 }
 
-/// Returns `true` if the step `set` of a script changes a column, or `move-node`.
+/// Returns `true` if the step `set` or `move-node` of a script can change a column.
 fn is_edited(column: &Column, of: Table) -> bool {
     match column {
         Column::Attribute(_) => true,

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `session` | opens a layout; pictures, findings, routes |
 //! | `look` | what a picture shows, as the page asks for it |
-//! | `edits` | edits by scripts, and undo, with the feature `files` |
+//! | `edits`, `history` | edits by scripts, and undo, with the feature `files` |
 //! | `files` | layouts in files of all formats, with the feature `files`; differences of two |
 //! | `floor_plan` | the drawing or the image below the paths |
 //! | `elements` | properties, outlines, hit test, search |
@@ -28,6 +28,8 @@ mod file;
 #[cfg(feature = "files")]
 mod files;
 mod floor_plan;
+#[cfg(feature = "files")]
+mod history;
 mod look;
 mod session;
 #[cfg(all(target_arch = "wasm32", not(feature = "threads")))]

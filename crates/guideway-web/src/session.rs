@@ -19,10 +19,10 @@ use guideway::{SaveError, write_png_by};
 use serde_json::{Value, json};
 
 use crate::answers;
-#[cfg(feature = "files")]
-use crate::edits::History;
 use crate::elements;
 use crate::floor_plan;
+#[cfg(feature = "files")]
+use crate::history::History;
 use crate::look::{Look, RouteEnds, SceneKey, Shade, usage, vehicle};
 
 /// Paths among which the one under the pointer is sought.
@@ -63,8 +63,7 @@ pub struct Drawn {
 
 impl Session {
     /// Opens a file, whose bytes stay outside; the content decides the format. Error texts call it
-    /// `name`.
-    /// The finished share goes to `progress`.
+    /// `name`. The finished share goes to `progress`.
     ///
     /// # Errors
     /// When the command would refuse the file too.

@@ -325,7 +325,7 @@ fn edits_are_those_of_scripts_and_can_be_taken_back() {
     assert_eq!(session.render(&look().to_string()).unwrap().rgba, before);
     assert_eq!(cell(&session, "maxSpeed")["value"], "0.3");
     assert_eq!(cell(&session, "maxSpeed")["edited"], "number");
-    assert_eq!(cell(&session, "length")["edited"], Value::Null);
+    assert_eq!(cell(&session, "level")["edited"], Value::Null);
     assert!(session.redo() && !session.redo());
     assert_eq!(find(&session, "gate"), 1);
 }

@@ -68,7 +68,7 @@ pub fn counts(layout: &Layout) -> Value {
     })
 }
 
-/// What a step of an edit script has touched.
+/// The elements that a step of an edit script has touched.
 #[cfg(feature = "script")]
 pub fn edit_step(step: &AppliedStep, number: usize) -> Value {
     let touched = &step.touched;

@@ -32,7 +32,8 @@ impl Dictionaries {
     /// the column and the number of its texts that are not UTF-8, if there are any.
     ///
     /// # Errors
-    /// When the schema has no such dictionary, or the library refuses its values.
+    /// When the schema has no such dictionary, the message has no values, or none to add them to,
+    /// or the library refuses them.
     pub(super) fn read(
         &mut self,
         body: &Buffer,
@@ -51,7 +52,9 @@ impl Dictionaries {
         let DataType::Dictionary(_, to) = field.data_type() else {
             return Err(unknown());
         };
-        let batch = message.data().ok_or_else(unknown)?;
+        let wrong = |problem| ArrowError::SchemaError(format!("dictionary {id}: {problem}"));
+        let batch = message.data();
+        let batch = batch.ok_or_else(|| wrong("the message has no values"))?;
         let read = |data_type: DataType| {
             let column = Schema::new(vec![Field::new("", data_type, true)]);
             let read = read_record_batch(body, batch, Arc::new(column), &self.0, None, version);
@@ -68,7 +71,7 @@ impl Dictionaries {
         let values = match (message.isDelta(), self.0.get(&id)) {
             (false, _) => values,
             (true, Some(known)) => joined(known, &values)?,
-            (true, None) => return Err(unknown()),
+            (true, None) => return Err(wrong("no values come before those that are added")),
         };
         self.0.insert(id, values);
         Ok((count > 0).then(|| (field.name().clone(), count)))

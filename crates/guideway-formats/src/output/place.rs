@@ -22,6 +22,10 @@ pub(super) struct Existing {
     /// Its path without symbolic links.
     pub(super) path: PathBuf,
     pub(super) file: File,
+    #[cfg_attr(
+        target_family = "wasm",
+        expect(dead_code, reason = "files there have neither rights nor owners")
+    )]
     pub(super) metadata: Metadata,
 }
 

@@ -62,7 +62,7 @@ impl EditTask {
     pub(crate) fn with_outcome(self) -> (Self, EditOutcome) {
         let (send, outcome) = mpsc::channel();
         let told = Self(Box::new(move |document, journal| {
-            // Where the asker does not wait any more, the user hears of it as of other edits.
+            // The user hears of it as of other edits, if the asker does not wait any more.
             let sent = send.send(self.run(document, journal));
             sent.or_else(|SendError(result)| result)
         }));
