@@ -141,8 +141,14 @@ export interface Placement {
   offset: Point;
 }
 
+/** The format that a layout had before it traveled as Arrow. */
+export interface Origin {
+  format: string;
+  formatVersion: string;
+}
+
 /** What a shared file says beside its layout: crates/guideway/src/cli/share. */
-export interface Shared {
+export interface Shared extends Origin {
   name: string;
   title: string;
   look: Partial<Look>;

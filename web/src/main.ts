@@ -443,8 +443,9 @@ function connect(): void {
 }
 
 /** Opens the layout and the floor plan that are in the page. */
-async function openShared({ name, floorPlan }: Shared): Promise<Info> {
-  const info = await engine.call<Info>("openPacked", [name, packed("layout")]);
+async function openShared(shared: Shared): Promise<Info> {
+  const { name, floorPlan } = shared;
+  const info = await engine.call<Info>("openPacked", [name, packed("layout"), shared]);
   if (floorPlan) {
     const { name, placement } = floorPlan;
     await engine.call("floorPlan", [name, packed("floor-plan"), placement]);

@@ -1,7 +1,7 @@
 // The worker: unpacks the engine, holds the open layout, answers one call after the other.
 
 import init, { Session, add_font, has_missed_letters } from "../engine/guideway_web.js";
-import type { FontSource } from "./answers.js";
+import type { FontSource, Origin } from "./answers.js";
 import { unpacked, unpackedText } from "./gzip.js";
 
 type Message = { id: number; call: string; args: unknown[] };
@@ -68,8 +68,9 @@ function afterwards(act: (layout: Session) => boolean): unknown {
   return act(opened()) ? JSON.parse(opened().info()) : null;
 }
 
-function replace(name: string, bytes: Uint8Array): unknown {
+function replace(name: string, bytes: Uint8Array, origin?: Origin): unknown {
   const next = new Session(name, bytes);
+  if (origin) next.set_origin(origin.format, origin.formatVersion);
   session?.free();
   session = next;
   return JSON.parse(next.info());
@@ -84,8 +85,8 @@ export const calls: Record<string, (...args: never[]) => unknown> = {
     return memory.buffer instanceof ArrayBuffer ? undefined : memory;
   },
   open: (name: string, bytes: ArrayBuffer) => replace(name, new Uint8Array(bytes)),
-  openPacked: async (name: string, base64: string) =>
-    replace(name, new Uint8Array(await unpackedText(base64))),
+  openPacked: async (name: string, base64: string, origin: Origin) =>
+    replace(name, new Uint8Array(await unpackedText(base64)), origin),
   /** The file is base64 of gzip in a shared page. */
   floorPlan: async (name: string, file: string | ArrayBuffer, placement: unknown) => {
     const bytes = new Uint8Array(typeof file === "string" ? await unpackedText(file) : file);

@@ -55,6 +55,11 @@ impl JsSession {
         open(name, bytes).map(Self).map_err(thrown)
     }
 
+    /// See [`Session::set_origin`].
+    pub fn set_origin(&mut self, format: &str, version: &str) {
+        self.0.set_origin(format, version);
+    }
+
     /// See [`Session::set_floor_plan`].
     pub fn set_floor_plan(
         &mut self,

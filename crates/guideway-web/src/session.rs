@@ -86,6 +86,14 @@ impl Session {
         })
     }
 
+    /// Says which format the layout had before it traveled as Arrow: lines of a drawing are drawn
+    /// finer than ways, and have no arrows.
+    pub fn set_origin(&mut self, format: &str, version: &str) {
+        let provenance = &mut Arc::make_mut(&mut self.layout).provenance;
+        format.clone_into(&mut provenance.format);
+        version.clone_into(&mut provenance.format_version);
+    }
+
     /// Sets the floor plan: the bytes of an image with its `placement`, which is JSON, or those of
     /// a layout or a drawing with `null` in its place. Error texts call it `name`.
     ///

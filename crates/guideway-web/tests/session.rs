@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use guideway::compose::{Decorations, NoProgress, Picture, Viewport};
 use guideway::cpu::Cpu;
-use guideway::formats::{ReadOptions, read_bytes};
+use guideway::formats::{ReadOptions, Target, read_bytes};
 use guideway::layout::UserError;
 use guideway::scene::{FrameSize, Scene, SceneOptions};
 use guideway::spline::Point;
@@ -328,4 +328,17 @@ fn edits_are_those_of_scripts_and_can_be_taken_back() {
     assert_eq!(cell(&session, "level")["edited"], Value::Null);
     assert!(session.redo() && !session.redo());
     assert_eq!(find(&session, "gate"), 1);
+}
+
+#[test]
+fn a_drawing_that_travels_as_arrow_is_drawn_as_one() {
+    let drawing = br#"<svg viewBox="0 0 9 9"><path stroke="black" d="M1 1L8 8"/></svg>"#;
+    let layout = read_bytes("plan.svg", drawing, &ReadOptions::default()).unwrap();
+    let mut bytes = Vec::new();
+    Target::Arrow.write(&layout, &mut bytes).unwrap();
+    let mut session = Session::open("plan.arrow", &&bytes[..], &NoProgress).unwrap();
+    let is_drawing = |session: &Session| parsed(&session.info())["isDrawing"].clone();
+    assert_eq!(is_drawing(&session), false);
+    session.set_origin("SVG", "1.1");
+    assert_eq!(is_drawing(&session), true);
 }

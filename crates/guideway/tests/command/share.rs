@@ -47,6 +47,7 @@ fn page_opens_as_its_options_say() {
     let (page, shared) = share(&args);
     assert_eq!(shared["title"], "Hall <3>");
     assert_eq!(shared["name"], "site.arrow");
+    assert_eq!(shared["format"], "LIF");
     assert_eq!(shared["look"]["pxPerM"], 40.0);
     assert_eq!(shared["look"]["colorBy"], "maxSpeed");
     assert!(page.contains("connect-src 'none'"));

@@ -8,7 +8,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use guideway::compose::PageFont;
 use guideway::envelope::EnvelopeSource;
-use guideway::layout::UserError;
+use guideway::layout::{Provenance, UserError};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
@@ -71,6 +71,8 @@ fn serialize_vehicle<S: Serializer>(
 pub(super) struct PageContent<'a> {
     /// The layout as Arrow.
     pub(super) layout: &'a [u8],
+    /// The origin of the layout, which Arrow does not hold.
+    pub(super) provenance: &'a Provenance,
     /// The floor plan.
     pub(super) plan: Option<&'a PackedPlan>,
     /// The fonts that the layout needs beside that of every page.
@@ -88,7 +90,18 @@ pub(super) fn page(
     look: &SharedLook,
     content: &PageContent<'_>,
 ) -> Result<Vec<u8>, UserError> {
-    let mut shared = json!({ "name": name, "title": title, "look": look });
+    let Provenance {
+        format,
+        format_version,
+        ..
+    } = content.provenance;
+    let mut shared = json!({
+        "name": name,
+        "title": title,
+        "look": look,
+        "format": format,
+        "formatVersion": format_version,
+    });
     let mut files = packed("layout", name, content.layout)?;
     for font in &content.fonts {
         let packed = BASE64_STANDARD.encode(font.packed());
@@ -174,6 +187,7 @@ mod tests {
         let title = "</script><script>alert(1)</script>";
         let content = PageContent {
             layout: b"{}",
+            provenance: &Provenance::default(),
             plan: None,
             fonts: PageFont::ALL.to_vec(),
         };

@@ -98,6 +98,7 @@ pub(crate) fn write(
     let title = title.unwrap_or_else(|| name.split('.').next().unwrap_or_default());
     let content = PageContent {
         layout: &bytes,
+        provenance: &layout.provenance,
         plan: plan.as_ref(),
         fonts: fonts::needed(&layout, title),
     };
