@@ -260,9 +260,10 @@ async function arrowEngineReadsArrow() {
   await page.waitForFunction(() => view.map.drawn > 0);
   const said = await page.evaluate(async (siteUrl) => {
     const refused = await view.save("lif").catch((error) => error.message);
+    const { paths, targets } = view.info;
     const failed = next("error");
     view.setAttribute("src", siteUrl);
-    return { paths: view.info.paths, targets: view.info.targets, refused, failed: await failed };
+    return { paths, targets, refused, failed: await failed };
   }, siteUrl);
   assert.deepEqual([said.paths, said.targets], [326, []]);
   assert.match(said.refused, /reads layouts of Arrow/);
