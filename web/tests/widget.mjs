@@ -16,7 +16,10 @@ writeFileSync(join(folder, "widget.js"), gunzipSync(packed));
 writeFileSync(join(folder, "empty.geojson"), '{"type":"FeatureCollection","features":[]}');
 
 /** A page with the widget of a layout, as a notebook shows it: the module has no address. */
-async function open(traits = {}, layout = "/crates/guideway/examples/site.lif.json") {
+async function open(traits = {}, layout = site) {
+  // As Python sends it.
+  const sent = join(folder, "widget.arrow");
+  guideway("convert", layout, sent, "--quiet");
   writeFileSync(
     join(folder, "widget.html"),
     `<!doctype html><body style="margin: 0"><div id="out" style="width: 640px"></div>
@@ -52,7 +55,7 @@ async function open(traits = {}, layout = "/crates/guideway/examples/site.lif.js
       model.traits._engine = await bytes("/crates/guideway/page/engine-arrow.wasm.gz");
       model.traits._letters = await bytes("/web/dist/letters.ttf.gz");
       model.traits._symbols = await bytes("/web/dist/symbols.ttf.gz");
-      model.traits._layout = await bytes(${JSON.stringify(layout)});
+      model.traits._layout = await bytes("/target/web/tests/widget.arrow");
       window.mount = async (el) => (await import(address())).default.render({ model, el });
       window.painted = () => new Promise((resolve) => {
         requestAnimationFrame(() => requestAnimationFrame(resolve));
@@ -222,7 +225,7 @@ async function saysWhatIsWrong() {
 }
 
 async function showsAnEmptyLayout() {
-  const page = await open({ site: true }, "/target/web/tests/empty.geojson");
+  const page = await open({ site: true }, join(folder, "empty.geojson"));
   await set(page, { _target: { number: 1 } });
   await page.evaluate(() => painted());
   assert.equal((await traits(page)).error, null);
