@@ -236,7 +236,7 @@ fn files_and_pictures_are_those_of_the_library() {
     let mut session = site();
     let layout = guideway::open(Path::new(env!("CARGO_MANIFEST_DIR")).join(SITE)).unwrap();
     for format in ["geojson", "dxf", "opentcs"] {
-        let target = guideway::formats::Target::from_id(format).unwrap();
+        let target = Target::from_id(format).unwrap();
         let mut expected = Vec::new();
         target.write(&layout, &mut expected).unwrap();
         assert!(
