@@ -25,7 +25,7 @@ pub(crate) struct Sketch {
 }
 
 impl Tools {
-    /// What the tools would draw: with the typed place or radius, else with the place at the
+    /// The tools would draw this: with the typed place or radius, else with the place at the
     /// pointer. `None` without a point.
     pub(crate) fn sketch(
         &self,

@@ -4,9 +4,10 @@ use eframe::egui::{Context, Grid, Id, Key, Modal, TextEdit, Ui};
 use guideway_document::{Document, LevelFacts};
 use guideway_layout::{ElementKind, PROPERTIES, Property, Value};
 
+use super::answer::Answer;
 use crate::action::{Action, GroupRequest};
-use crate::editing::{EditOutcome, EditTask};
-use crate::language::{say, t, translated};
+use crate::editing::EditTask;
+use crate::language::{say, t};
 use crate::panels::properties::{FieldKind, TypedValue};
 use crate::units::shown_unit;
 
@@ -30,11 +31,7 @@ struct OpenGroup {
     properties: Vec<(&'static Property, String)>,
     /// Identifiers of the others.
     others: Vec<String>,
-    /// The edit of the answer, while it runs.
-    outcome: Option<EditOutcome>,
-    error: Option<String>,
-    /// True if the first field takes the focus in the next frame.
-    wants_focus: bool,
+    answer: Answer,
 }
 
 impl GroupDialog {
@@ -59,9 +56,7 @@ impl GroupDialog {
             level_facts: Default::default(),
             properties,
             others,
-            outcome: None,
-            error: None,
-            wants_focus: true,
+            answer: Answer::default(),
         });
     }
 
@@ -76,35 +71,21 @@ impl GroupDialog {
     /// Closes the dialog when the edit of its answer is complete. One that is refused stays, with
     /// the reason.
     pub(super) fn poll(&mut self) {
-        let Some(open) = &mut self.open else {
-            return;
-        };
-        match open.outcome.as_ref().and_then(EditOutcome::poll) {
-            None => {}
-            Some(Ok(())) => self.open = None,
-            Some(Err(error)) => {
-                (open.outcome, open.error, open.wants_focus) = (None, Some(error), true);
-            }
-        }
+        self.open.take_if(|open| open.answer.poll());
     }
 
     /// Shows the dialog, and returns the edit of its answer. A wrong answer stays, with its error.
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Action> {
         let open = self.open.as_mut()?;
-        let mut answer = None;
-        let modal = Modal::new(Id::unique("group")).show(ctx, |ui| answer = open.content(ui));
-        match answer {
+        let mut choice = None;
+        let modal = Modal::new(Id::unique("group")).show(ctx, |ui| choice = open.content(ui));
+        match choice {
             None if modal.should_close() => self.open = None,
             Some(false) => self.open = None,
-            Some(true) if open.outcome.is_none() => match open.edit() {
-                Ok(edit) => {
-                    let (edit, outcome) = edit.with_outcome();
-                    (open.outcome, open.error) = (Some(outcome), None);
-                    ctx.request_repaint();
-                    return Some(Action::Edit(edit));
-                }
-                Err(error) => (open.error, open.wants_focus) = (Some(error), true),
-            },
+            Some(true) if !open.answer.is_running() => {
+                let edit = open.edit();
+                return open.answer.give(edit, ctx);
+            }
             None | Some(true) => {}
         }
         None
@@ -121,7 +102,7 @@ impl OpenGroup {
             false => t("New vehicle type"),
         });
         let mut enters = false;
-        let focus = std::mem::take(&mut self.wants_focus);
+        let focus = self.answer.takes_focus();
         Grid::new("group").num_columns(2).show(ui, |ui| {
             enters |= field(ui, t("identifier"), &mut self.id, focus);
             if is_level {
@@ -139,9 +120,7 @@ impl OpenGroup {
                 enters |= field(ui, &label, text, false);
             }
         });
-        if let Some(error) = &self.error {
-            ui.colored_label(ui.visuals().error_fg_color, translated(error));
-        }
+        self.answer.show_error(ui);
         let mut answer = enters.then_some(true);
         ui.horizontal(|ui| {
             if ui.button(t("OK")).clicked() {

@@ -1,6 +1,7 @@
 //! Dialogs over the window: prompts, questions, notices, help.
 
 mod about_dialog;
+mod answer;
 mod confirm_dialog;
 mod file_picker;
 pub(crate) mod floor_plan_window;

@@ -2,9 +2,9 @@
 
 use eframe::egui::{Button, Context, Id, Key, Modal, TextEdit};
 
+use super::answer::Answer;
 use crate::action::{Action, TypeRename};
-use crate::editing::EditOutcome;
-use crate::language::{t, translated};
+use crate::language::t;
 use crate::selection::{TextQuestion, prompted_edit};
 
 /// Width of the field, in points.
@@ -18,21 +18,14 @@ pub(crate) struct TextDialog {
 
 struct OpenQuestion {
     question: TextQuestion,
-    /// The edit of the answer, while it runs.
-    outcome: Option<EditOutcome>,
-    /// The mistake in the text, or why the edit was refused.
-    error: Option<String>,
-    /// True if the field takes the focus in the next frame.
-    wants_focus: bool,
+    answer: Answer,
 }
 
 impl TextDialog {
     pub(crate) fn ask(&mut self, question: TextQuestion) {
         self.open = Some(OpenQuestion {
             question,
-            outcome: None,
-            error: None,
-            wants_focus: true,
+            answer: Answer::default(),
         });
     }
 
@@ -47,16 +40,10 @@ impl TextDialog {
     /// Closes the question when the edit of its answer is complete. One that is refused stays, with
     /// the reason.
     pub(super) fn poll(&mut self) -> Option<Action> {
-        let open = self.open.as_mut()?;
-        let result = open.outcome.as_ref()?.poll()?;
-        open.outcome = None;
-        if let Err(error) = result {
-            (open.error, open.wants_focus) = (Some(error), true);
-            return None;
-        }
+        let answered = self.open.take_if(|open| open.answer.poll())?;
         let TextQuestion {
             text, renamed_type, ..
-        } = self.open.take()?.question;
+        } = answered.question;
         let new = text.trim().to_owned();
         renamed_type.map(|old| Action::VehicleTypeRenamed(TypeRename { old, new }))
     }
@@ -66,19 +53,17 @@ impl TextDialog {
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Action> {
         let open = self.open.as_mut()?;
         let (mut is_answered, mut is_cancelled) = (false, false);
-        let is_waiting = open.outcome.is_some();
+        let is_waiting = open.answer.is_running();
         let modal = Modal::new(Id::unique("text question")).show(ctx, |ui| {
             ui.set_max_width(WIDTH);
             ui.strong(open.question.command.name());
             let label = ui.label(&open.question.label);
             let field = TextEdit::singleline(&mut open.question.text).desired_width(WIDTH);
             let field = ui.add_enabled(!is_waiting, field).labelled_by(label.id);
-            if std::mem::take(&mut open.wants_focus) {
+            if open.answer.takes_focus() {
                 field.request_focus();
             }
-            if let Some(error) = &open.error {
-                ui.colored_label(ui.visuals().error_fg_color, translated(error));
-            }
+            open.answer.show_error(ui);
             ui.horizontal(|ui| {
                 let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
                 let ok = ui.add_enabled(!is_waiting, Button::new(t("OK")));
@@ -93,17 +78,7 @@ impl TextDialog {
         if !is_answered || is_waiting {
             return None;
         }
-        match prompted_edit(open.question.command, &open.question.text) {
-            Ok(edit) => {
-                let (edit, outcome) = edit.with_outcome();
-                (open.outcome, open.error) = (Some(outcome), None);
-                ctx.request_repaint();
-                Some(Action::Edit(edit))
-            }
-            Err(error) => {
-                (open.error, open.wants_focus) = (Some(error), true);
-                None
-            }
-        }
+        let edit = prompted_edit(open.question.command, &open.question.text);
+        open.answer.give(edit, ctx)
     }
 }
