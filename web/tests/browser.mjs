@@ -53,6 +53,9 @@ function realFiles() {
   return found;
 }
 
+// Each is read by the command once.
+const real = realFiles();
+
 async function pngOf(page, look) {
   const text = await page.evaluate(async (look) => {
     const bytes = new Uint8Array(await guideway.engine.call("png", [look]));
@@ -73,7 +76,7 @@ async function picturesAreThoseOfTheCommand() {
   await load(page, arrow);
   await page.waitForTimeout(300);
   assert.equal(await page.evaluate(() => guideway.map.drawn), 1, "the first picture is drawn again");
-  for (const file of [site, arrow, ...encodedFiles(), ...realFiles()]) {
+  for (const file of [site, arrow, ...encodedFiles(), ...real]) {
     await load(page, file);
     const size = { width: 640, height: 400 };
     const expected = join(folder, "expected.png");
@@ -352,7 +355,7 @@ async function sharedPageOpensFromDisk() {
 async function sharedLayoutsAreWhole() {
   const [file, expected] = [join(folder, "whole.html"), join(folder, "whole.png")];
   const fixed = ["--size", "640x400", "--method", "cpu", "--shade", "color"];
-  for (const layout of [site, ...realFiles()]) {
+  for (const layout of [site, ...real]) {
     guideway("share", layout, "-o", file, "--quiet");
     guideway("render", layout, "-o", expected, "--quiet", ...fixed, ...markArgs);
     const page = await open(pathToFileURL(file).href);

@@ -29,15 +29,15 @@ pub(super) fn programs(top: &Path) -> Result<Binaries> {
     let script = top.join("packaging/no-unwinding.ld");
     let script = format!("-Clink-arg=-Wl,-T,{}", script.display());
     let without_tables = [script.as_str(), "-Clink-arg=-Wl,--no-eh-frame-hdr"];
+    let lld = format!("-Clink-arg=-B{}", lld_folder()?.display());
     let build = |task: &[&str], std: &str, more: &[&str], profile: &str| {
         let (task, rest) = task.split_at(1);
-        let lld = format!("-Clink-arg=-B{}", lld_folder()?.display());
         let task = rust
             .cargo(task)
             .args(["--locked", "--target", HOST, std, SMALL_STD]);
         let task = task
             .args(rest)
-            .args([&lld, "-Clink-arg=-fuse-ld=lld", FOLDED]);
+            .args([lld.as_str(), "-Clink-arg=-fuse-ld=lld", FOLDED]);
         let folder = run(top, task.args(more), &rust.remapped_paths()?)?;
         anyhow::Ok(Binaries::in_folder(&folder.join(HOST).join(profile)))
     };

@@ -24,12 +24,8 @@ fn with_plan() -> TestWindow {
     window
 }
 
-fn placed(window: &mut TestWindow) -> String {
-    window.app().floor_plan.text().to_owned()
-}
-
-#[test]
-fn two_points_of_known_distance_scale_the_plan() {
+/// A window with a plan on which two points are chosen, and their distance in meters.
+fn with_two_points() -> (TestWindow, f64) {
     let mut window = with_plan();
     window.harness.get_by_label("Scale by two points").click();
     window.harness.run_steps(3);
@@ -38,33 +34,38 @@ fn two_points_of_known_distance_scale_the_plan() {
         window.click(at);
     }
     let measured = window.app().plan_editor.distance_m;
+    (window, measured)
+}
+
+fn placed(window: &mut TestWindow) -> String {
+    window.app().floor_plan.text().to_owned()
+}
+
+fn assert_scaled_twofold(window: &mut TestWindow) {
+    let text = placed(window);
+    assert!(text.starts_with("hall.png@px-per-m=10,"), "{text}");
+    assert_eq!(window.app().plan_editor.task, PlanTask::None);
+}
+
+#[test]
+fn two_points_of_known_distance_scale_the_plan() {
+    let (mut window, measured) = with_two_points();
     assert!((measured - 8.0).abs() < 0.1, "{measured}");
     assert!(window.selected().is_empty(), "the clicks are for the plan");
     window.app().plan_editor.distance_m = 2.0 * measured;
     window.harness.run_steps(2);
     window.harness.get_by_label("Apply").click();
     window.harness.run_steps(3);
-    let text = placed(&mut window);
-    assert!(text.starts_with("hall.png@px-per-m=10,"), "{text}");
-    assert_eq!(window.app().plan_editor.task, PlanTask::None);
+    assert_scaled_twofold(&mut window);
     window.wait(|app| !app.floor_plan.is_reading() && app.floor_plan.shown().is_some());
 }
 
 #[test]
 fn distance_is_typed_right_after_the_second_click() {
-    let mut window = with_plan();
-    window.harness.get_by_label("Scale by two points").click();
-    window.harness.run_steps(3);
-    for x in [0.0, 8.0] {
-        let at = window.at(x, 3.0);
-        window.click(at);
-    }
-    let measured = window.app().plan_editor.distance_m;
+    let (mut window, measured) = with_two_points();
     window.harness.run_steps(2);
     window.answer(&format!("{}", 2.0 * measured));
-    let text = placed(&mut window);
-    assert!(text.starts_with("hall.png@px-per-m=10,"), "{text}");
-    assert_eq!(window.app().plan_editor.task, PlanTask::None);
+    assert_scaled_twofold(&mut window);
     assert_eq!(window.document().layout().paths.len(), 3);
 }
 
