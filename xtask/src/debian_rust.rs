@@ -19,6 +19,12 @@ const NEEDED: [&str; 2] = ["libllvm", "libstd-rust-web-"];
 pub(crate) struct DebianRust(PathBuf);
 
 impl DebianRust {
+    /// Returns `true` if this system has the packages.
+    pub(crate) fn is_known() -> bool {
+        let is_listed = || command("apt-cache").args(["show", PACKAGES[0]]).succeeds();
+        is_listed() || (apt(&["update", "-q"]).is_ok() && is_listed())
+    }
+
     /// Fetches and unpacks the packages where that was not done before.
     pub(crate) fn ensure() -> Result<Self> {
         let rust = Self(std::env::current_dir()?.join(FOLDER));

@@ -97,7 +97,7 @@ fn test() -> Result<()> {
     CARGO_DENY.ensure()?;
     MDBOOK.ensure()?;
     step::set_env("GUIDEWAY_PYTHON", prerequisites::python()?);
-    prerequisites::software_devices()?;
+    prerequisites::debian_packages()?;
     step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
     lints()?;
     heading("building the tests");
@@ -145,12 +145,10 @@ fn checks() -> Result<()> {
     single_formats()?;
     heading("Arrow files under AddressSanitizer");
     match SANITIZED_HOST {
-        Some(host) => sanitize(host),
-        None => {
-            println!("SKIPPED: {NO_SANITIZER}");
-            Ok(())
-        }
+        Some(host) => sanitize(host)?,
+        None => println!("SKIPPED: {NO_SANITIZER}"),
     }
+    windows::check()
 }
 
 /// Executes the notebook of the Python package, whose file has no outputs.

@@ -19,6 +19,9 @@ const SCREEN: &[&str] = &["xvfb", "xdotool", "libxkbcommon-x11-0"];
 /// Debian package that draws pages of PDF, for tests of floor plans.
 const PDF: &[&str] = &["poppler-utils"];
 
+/// Debian packages that build programs in C and C++ and watch their memory, for the C library.
+const PROGRAMS: &[&str] = &["g++", "pkg-config", "valgrind"];
+
 /// A tool from crates.io, installed once into cargo's own folder.
 pub(crate) struct Tool {
     /// Name of the crate and of its program.
@@ -171,14 +174,14 @@ fn environment(name: &str, packages: &[&str], imports: &str) -> Result<PathBuf> 
 }
 
 /// Installs software Vulkan and OpenGL and a virtual screen, so that the graphics methods and the
-/// window can be tested without hardware.
-pub(crate) fn software_devices() -> Result<()> {
+/// window can be tested without hardware, and tools that other tests start.
+pub(crate) fn debian_packages() -> Result<()> {
     if !command("dpkg").args(["--version"]).succeeds() {
         // Not a Debian system: its own drivers serve, and tests report what is missing.
         return Ok(());
     }
     let is_installed = |package: &&str| command("dpkg").args(["--status", package]).succeeds();
-    let packages = [SOFTWARE_DEVICES, SCREEN, PDF].concat();
+    let packages = [SOFTWARE_DEVICES, SCREEN, PDF, PROGRAMS].concat();
     if packages.iter().all(is_installed) {
         return Ok(());
     }

@@ -1,4 +1,5 @@
-//! The examples in C and C++, built against an installed library and run under AddressSanitizer.
+//! The examples in C and C++, built against an installed library and run under AddressSanitizer and
+//! under Valgrind.
 
 #![cfg(target_os = "linux")]
 #![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
@@ -21,11 +22,64 @@ fn site() -> PathBuf {
     krate().join("../guideway/examples/site.lif.json")
 }
 
-/// Builds an example with its documented command and sanitizers, and runs it in `folder`. `None` if
-/// a tool is missing.
-fn run(compiler: &str, source: &str, folder: &Path, args: &[&str]) -> Option<Output> {
-    let missing = |tool: &&str| Command::new(tool).arg("--version").output().is_err();
-    if let Some(tool) = ["pkg-config", compiler].iter().find(|tool| missing(tool)) {
+/// A watch over the memory of a program.
+#[derive(Clone, Copy, Debug)]
+enum Watch {
+    /// By instructions of the compiler, in the program alone.
+    Sanitizers,
+    /// By executing program and library step by step.
+    Valgrind,
+}
+
+impl Watch {
+    const ALL: [Self; 2] = [Self::Sanitizers, Self::Valgrind];
+
+    /// The first tool that this system lacks.
+    fn missing(self, compiler: &'static str) -> Option<&'static str> {
+        let tools: &[&str] = match self {
+            Self::Sanitizers => &["pkg-config", compiler],
+            Self::Valgrind => &["pkg-config", compiler, "valgrind"],
+        };
+        let is_missing = |tool: &&str| Command::new(tool).arg("--version").output().is_err();
+        tools.iter().copied().find(is_missing)
+    }
+
+    fn flags(self) -> &'static [&'static str] {
+        match self {
+            Self::Sanitizers => &["-fsanitize=address,undefined"],
+            Self::Valgrind => &[],
+        }
+    }
+
+    /// The command that runs a program; it fails where the memory is misused.
+    fn start(self, program: &Path) -> Command {
+        match self {
+            Self::Sanitizers => Command::new(program),
+            Self::Valgrind => {
+                let mut command = Command::new("valgrind");
+                command.args(["--quiet", "--error-exitcode=99", "--leak-check=full"]);
+                // Threads that wait for work at the end have memory that is "possibly" lost.
+                command.args([
+                    "--show-leak-kinds=definite",
+                    "--errors-for-leak-kinds=definite",
+                ]);
+                command.arg(program);
+                command
+            }
+        }
+    }
+}
+
+/// Builds a source with the documented command under a watch, and runs it in `folder`. `None` if a
+/// tool is missing.
+fn run(
+    watch: Watch,
+    compiler: &'static str,
+    source: &Path,
+    folder: &Path,
+    args: &[&str],
+) -> Option<Output> {
+    if let Some(tool) = watch.missing(compiler) {
         println!("SKIPPED: this system has no {tool}");
         return None;
     }
@@ -43,35 +97,59 @@ fn run(compiler: &str, source: &str, folder: &Path, args: &[&str]) -> Option<Out
     let program = folder.join("program");
     let built = Command::new(compiler)
         .args(["-Wall", "-Wextra", "-Werror", "-pedantic", "-g"])
-        .args(["-fsanitize=address,undefined"])
-        .arg(krate().join("examples").join(source))
+        .args(watch.flags())
+        .arg(source)
         .args(flags.split_whitespace())
         .arg("-o")
         .arg(&program)
         .output()
         .unwrap();
     assert!(built.status.success(), "{built:?}");
-    let ran = Command::new(&program)
-        .args(args)
-        .current_dir(folder)
-        .env("LD_LIBRARY_PATH", prefix.join("lib"))
-        .output();
-    Some(ran.unwrap())
+    let mut command = watch.start(&program);
+    command.args(args).current_dir(folder);
+    Some(
+        command
+            .env("LD_LIBRARY_PATH", prefix.join("lib"))
+            .output()
+            .unwrap(),
+    )
+}
+
+/// Runs an example under each watch, in a folder of its own, and passes folder and output on.
+fn run_watched(
+    compiler: &'static str,
+    example: &str,
+    args: &[&str],
+    assert_right: impl Fn(&Path, &Output),
+) {
+    let source = krate().join("examples").join(example);
+    for watch in Watch::ALL {
+        let folder = tempfile::tempdir().unwrap();
+        if let Some(ran) = run(watch, compiler, &source, folder.path(), args) {
+            assert!(ran.status.success(), "{watch:?}: {ran:?}");
+            assert_right(folder.path(), &ran);
+        }
+    }
+}
+
+#[test]
+fn misused_memory_is_noticed() {
+    let misuse = "#include <stdio.h>\n#include <stdlib.h>\n\
+        int main(int count, char **words) { char *text = malloc(4); (void)words; \
+        text[3 + count] = 'x'; puts(text + 3 + count); free(text); return 0; }\n";
+    for watch in Watch::ALL {
+        let folder = tempfile::tempdir().unwrap();
+        let source = folder.path().join("misuse.c");
+        std::fs::write(&source, misuse).unwrap();
+        if let Some(ran) = run(watch, "gcc", &source, folder.path(), &[]) {
+            assert!(!ran.status.success(), "{watch:?}: {ran:?}");
+        }
+    }
 }
 
 #[test]
 fn example_in_c_draws_the_picture_that_rust_draws() {
-    let folder = tempfile::tempdir().unwrap();
     let site = site();
-    let args = [site.to_str().unwrap(), "site.ppm"];
-    let Some(ran) = run("gcc", "site.c", folder.path(), &args) else {
-        return;
-    };
-    let said = String::from_utf8_lossy(&ran.stdout);
-    assert!(ran.status.success(), "{ran:?}");
-    assert!(said.contains("\"nodes\":206,"), "{said}");
-    assert!(said.contains("326 of 326 paths"), "{said}");
-
     let layout = Arc::new(guideway::open(&site).unwrap());
     let options = SceneOptions {
         color_by: Some(ColorBy {
@@ -88,19 +166,22 @@ fn example_in_c_draws_the_picture_that_rust_draws() {
     let colors = frame.pixels().iter().flat_map(|[r, g, b, _]| [*r, *g, *b]);
     let mut expected = b"P6 640 360 255\n".to_vec();
     expected.extend(colors);
-    assert!(std::fs::read(folder.path().join("site.ppm")).unwrap() == expected);
+    let args = [site.to_str().unwrap(), "site.ppm"];
+    run_watched("gcc", "site.c", &args, |folder, ran| {
+        let said = String::from_utf8_lossy(&ran.stdout);
+        assert!(said.contains("\"nodes\":206,"), "{said}");
+        assert!(said.contains("326 of 326 paths"), "{said}");
+        assert!(std::fs::read(folder.join("site.ppm")).unwrap() == expected);
+    });
 }
 
 #[test]
 fn example_in_cpp_finds_a_route_and_passes_tables() {
-    let folder = tempfile::tempdir().unwrap();
     let site = site();
     let args = [site.to_str().unwrap(), "dock-1", "dock-3"];
-    let Some(ran) = run("g++", "tables.cpp", folder.path(), &args) else {
-        return;
-    };
-    let said = String::from_utf8_lossy(&ran.stdout);
-    assert!(ran.status.success(), "{ran:?}");
-    assert!(said.contains("\"lengthM\":"), "{said}");
-    assert!(said.contains("\nkind "), "{said}");
+    run_watched("g++", "tables.cpp", &args, |_, ran| {
+        let said = String::from_utf8_lossy(&ran.stdout);
+        assert!(said.contains("\"lengthM\":"), "{said}");
+        assert!(said.contains("\nkind "), "{said}");
+    });
 }

@@ -18,6 +18,7 @@ mod wine;
 
 use anyhow::{Result, bail};
 
+use crate::debian_rust::DebianRust;
 use crate::prerequisites;
 use crate::step::{build_with_workspace, heading};
 use build::Profile;
@@ -46,6 +47,17 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
     Ok(())
 }
 
+/// Builds the programs with little optimization and tests them, where Debian's compiler is.
+pub(crate) fn check() -> Result<()> {
+    match DebianRust::is_known() {
+        true => test(Profile::Quick),
+        false => {
+            println!("SKIPPED: the compiler for Windows is a package of Debian, rustc-web");
+            Ok(())
+        }
+    }
+}
+
 /// Builds a release for Windows, and packs it beside the other packages.
 pub(crate) fn dist() -> Result<()> {
     let binaries = build::programs(Profile::Release)?;
@@ -60,7 +72,7 @@ fn test(profile: Profile) -> Result<()> {
     heading("packages for Windows");
     let packages = packages::pack(&binaries, profile)?;
     heading("the command of this system");
-    prerequisites::software_devices()?;
+    prerequisites::debian_packages()?;
     build_with_workspace()?;
     heading("Wine");
     let screen = Screen::start()?;

@@ -12,8 +12,8 @@ use anyhow::{Context, Result, bail};
 use super::build::FOLDER;
 use crate::step::command;
 
-/// Polls before a wait fails: one minute.
-const MAX_POLLS: usize = 600;
+/// Polls before a wait fails: three minutes, for other tests can run beside.
+const MAX_POLLS: usize = 1800;
 /// Title of the window.
 const TITLE: &str = "Guideway";
 
@@ -65,7 +65,7 @@ impl Screen {
         let search = ["search", "--onlyvisible", "--name", TITLE];
         let is_there = polls().any(|()| self.xdotool(&search).is_ok());
         if !is_there {
-            bail!("no window appeared within a minute");
+            bail!("no window appeared within three minutes");
         }
         // Without a window manager nothing has the keyboard.
         self.xdotool(&[&search[..], &["windowfocus", "--sync"]].concat())
@@ -141,7 +141,7 @@ impl Picture {
     }
 }
 
-/// Waits a tenth of a second per item, for at most a minute.
+/// Waits a tenth of a second per item, for at most three minutes.
 pub(super) fn polls() -> impl Iterator<Item = ()> {
     (0..MAX_POLLS).map(|_| thread::sleep(Duration::from_millis(100)))
 }
