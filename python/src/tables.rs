@@ -19,9 +19,6 @@ use pyo3::types::PyCapsule;
 use crate::error::bad_argument;
 use crate::stream::to_capsule;
 
-/// Largest distance of sampled points from their curve.
-const SAMPLE_TOLERANCE_M: f64 = 1e-4;
-
 /// Most sampled points of one call.
 const MAX_SAMPLES: f64 = 1e9;
 
@@ -270,16 +267,11 @@ pub(crate) fn samples(layout: &Layout, spacing_m: f64) -> PyResult<Table> {
     }
     let mut rows = Vec::new();
     let mut values: [Vec<f64>; 4] = Default::default();
-    let mut line = Vec::new();
     for path in layout.paths.iter() {
-        line.clear();
-        for run in path.runs() {
-            flatten(run, SAMPLE_TOLERANCE_M, &mut line);
-        }
-        line.dedup();
-        sample(&line, spacing_m, |along_m, at, heading_rad| {
+        path.sample(spacing_m, |sample| {
             rows.push(path.row() as u32);
-            let of = [along_m, at.x, at.y, heading_rad];
+            let at = sample.position_m;
+            let of = [sample.along_m, at.x, at.y, sample.heading_rad];
             values
                 .iter_mut()
                 .zip(of)
@@ -307,29 +299,6 @@ pub(crate) fn samples(layout: &Layout, spacing_m: f64) -> PyResult<Table> {
 pub(crate) fn flatten(run: RunPoints<'_>, tolerance_m: f64, line: &mut Vec<Point<f64>>) {
     let points: Vec<Point<f64>> = run.iter().collect();
     flatten_run(&points, tolerance_m, &mut |point| line.push(point));
-}
-
-/// Hands points at equal distances along a polyline, both ends among them, to `at`.
-fn sample(line: &[Point<f64>], spacing_m: f64, mut at: impl FnMut(f64, Point<f64>, f64)) {
-    let length_m: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    let steps = (length_m / spacing_m).ceil().max(1.0);
-    let mut passed_m = 0.0;
-    let mut step = 0.0;
-    let pieces = line.len().saturating_sub(1);
-    for (index, pair) in line.windows(2).enumerate() {
-        let (from, way) = (pair[0], pair[1] - pair[0]);
-        let piece_m = pair[0].distance(pair[1]);
-        let heading_rad = way.y.atan2(way.x);
-        // Rounding must not lose the last point.
-        let is_last = index + 1 == pieces;
-        while step <= steps && (is_last || length_m * step / steps < passed_m + piece_m) {
-            let along_m = length_m * step / steps;
-            let share = ((along_m - passed_m) / piece_m).clamp(0.0, 1.0);
-            at(along_m, from + way * share, heading_rad);
-            step += 1.0;
-        }
-        passed_m += piece_m;
-    }
 }
 
 fn push_positions(columns: &mut Columns, positions: impl Iterator<Item = Option<Point<f64>>>) {

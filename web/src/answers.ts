@@ -83,6 +83,14 @@ export interface Report {
   renderMs: number;
 }
 
+export interface Sample {
+  alongM: number;
+  x: number;
+  y: number;
+  /** 0 along x, counterclockwise. */
+  headingRad: number;
+}
+
 export interface Route {
   lengthM: number;
   timeS: number;

@@ -2,7 +2,7 @@
 
 import type { Box, Details, EditStep, EditedStep, Findings, Info } from "./answers.js";
 import type { Look, Picture, Point } from "./answers.js";
-import type { Placement, Report, Route, Summary } from "./answers.js";
+import type { Placement, Report, Route, Sample, Summary } from "./answers.js";
 import { besideModule, compiled, download, nameOf } from "./download.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
 import type { ElementName, GuidewayViewEvents, Picked } from "./events.js";
@@ -263,6 +263,13 @@ export class GuidewayView extends Base {
   /** Paths for which a condition such as `maxSpeed > 1` holds: their number, the first ones. */
   query(condition: string, limit = 100): Promise<{ all: number; elements: Summary[] }> {
     return this.call("query", [condition, limit]);
+  }
+
+  /** Points of a path from start to end, at equal distances of at most `spacingM` along it. */
+  async sample(path: ElementName, spacingM: number): Promise<Sample[]> {
+    const { kind, row } = await this.details(path);
+    if (kind === "path") return this.call("sample", [row, spacingM]);
+    throw new GuidewayError("usage", `a ${kind} has no points along it`, "Name a path");
   }
 
   /** The fastest route between two stations or nodes. */

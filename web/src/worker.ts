@@ -101,6 +101,7 @@ export const calls: Record<string, (...args: never[]) => unknown> = {
   element: (kind: string, row: number) => JSON.parse(opened().element(kind, row)),
   find: (text: string, limit: number) => JSON.parse(opened().find(text, limit)),
   query: (text: string, limit: number) => JSON.parse(opened().query(text, limit)),
+  sample: (row: number, spacing: number) => JSON.parse(opened().sample(row, spacing)),
   route: (ends: unknown) => JSON.parse(opened().route(JSON.stringify(ends))),
   edit: (steps: unknown[]) => {
     requireFiles();

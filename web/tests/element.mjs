@@ -101,6 +101,14 @@ async function showsWhatTheCommandDraws() {
   });
   assert.deepEqual([edited.names, edited.found, edited.back], [["gate"], "gate", [true, false]]);
   assert.match(edited.refused, /step 1/);
+  const sampled = await page.evaluate(async () => {
+    const points = await view.sample("dock-1-003--dock-1-002", 3);
+    const refused = await view.sample("dock-1", 3).catch((error) => error.message);
+    return { points: points.map(({ x, y, alongM }) => [x, y, alongM]), refused };
+  });
+  assert.equal(sampled.points.length, 3);
+  assert.deepEqual(sampled.points[1], [36, 4, 2]);
+  assert.match(sampled.refused, /a station has no points/);
   const saved = await page.evaluate(async () => (await view.save("dxf")).file.text());
   guideway("convert", site, join(folder, "element.dxf"), "--quiet");
   assert.equal(saved, readFileSync(join(folder, "element.dxf"), "utf8"));

@@ -104,7 +104,7 @@ pub use near::near_names;
 pub use nodes::Nodes;
 pub use note::{Note, NoteKind};
 pub use path::{Direction, NewPath, OwnStyle};
-pub use paths::{PathRef, Paths};
+pub use paths::{PathRef, Paths, Sample};
 pub use place::{Origin, Place};
 pub use property::{ElementKind, PROPERTIES, Property, PropertyKind};
 pub use quantity::Quantity;

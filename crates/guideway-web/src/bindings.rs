@@ -127,6 +127,11 @@ impl JsSession {
         self.0.query(text, limit).map_err(thrown)
     }
 
+    /// See [`Session::sample`].
+    pub fn sample(&self, row: u32, spacing_m: f64) -> Result<String, JsValue> {
+        self.0.sample(row, spacing_m).map_err(thrown)
+    }
+
     /// See [`Session::route`].
     pub fn route(&self, ends: &str) -> Result<String, JsValue> {
         self.0.route(ends).map_err(thrown)

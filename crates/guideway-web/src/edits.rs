@@ -5,7 +5,7 @@ use std::sync::Arc;
 use guideway::formats::ReadOptions;
 use guideway::layout::UserError;
 use guideway::script::{Applied, Script};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::session::Session;
 
@@ -21,11 +21,7 @@ impl Session {
         let Applied { layout, steps } = applied;
         let before = self.replace(Arc::new(layout));
         self.history.push(before);
-        let steps = steps.iter().zip(1..);
-        let steps: Value = steps
-            .map(|(step, number)| guideway::json::edit_step(step, number))
-            .collect();
-        Ok(json!({ "steps": steps }).to_string())
+        Ok(json!({ "steps": guideway::json::edit_steps(&steps) }).to_string())
     }
 
     /// Takes the last edit back. Returns `false` if there is none.

@@ -10,6 +10,8 @@ use crate::look::usage;
 
 /// Most points of an outline.
 const MAX_POINTS: usize = 4096;
+/// Most points along a path of one call.
+const MAX_SAMPLES: f64 = 1e6;
 /// Lines of a segment of an outline.
 const LINES: usize = 16;
 
@@ -65,6 +67,35 @@ fn is_edited(column: &Column, of: Table) -> bool {
         Column::X | Column::Y => of == Table::Nodes,
         _ => false,
     }
+}
+
+/// Points at equal distances along a path, at most `spacing_m` apart.
+pub(crate) fn samples(layout: &Layout, row: u32, spacing_m: f64) -> Result<Value, UserError> {
+    named(layout, Table::Paths.element(), row)?;
+    if !(spacing_m > 0.0 && spacing_m.is_finite()) {
+        let message = format!("a spacing of {spacing_m} m");
+        return Err(UserError::new(
+            "usage",
+            message,
+            "Give a distance in meters above 0",
+        ));
+    }
+    let path = layout.paths.get(row as usize);
+    let count = path.length_m() / spacing_m;
+    if count > MAX_SAMPLES {
+        let message = format!("{count:.0} points, limit {MAX_SAMPLES}");
+        return Err(UserError::new("usage", message, "Give a greater distance"));
+    }
+    let mut samples = Vec::new();
+    path.sample(spacing_m, |sample| {
+        samples.push(json!({
+            "alongM": sample.along_m,
+            "x": sample.position_m.x,
+            "y": sample.position_m.y,
+            "headingRad": sample.heading_rad,
+        }));
+    });
+    Ok(samples.into())
 }
 
 /// Elements whose identifier contains a text, exact ones first.

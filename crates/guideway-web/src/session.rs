@@ -247,6 +247,16 @@ impl Session {
         Ok(elements::query(&self.layout, self.index(), text, limit)?.to_string())
     }
 
+    /// Points along a path from start to end, at equal distances of at most `spacing_m`, as JSON:
+    /// `[{ "alongM": 0, "x": 1, "y": 2, "headingRad": 0 }, ...]`.
+    ///
+    /// # Errors
+    /// When the path does not exist, or the distance is not above 0 or makes too many points.
+    pub fn sample(&self, row: u32, spacing_m: f64) -> Result<String, UserError> {
+        let samples = elements::samples(&self.layout, row, spacing_m)?;
+        Ok(samples.to_string())
+    }
+
     /// The fastest route between two stations or nodes, as JSON.
     ///
     /// # Errors

@@ -68,9 +68,17 @@ pub fn counts(layout: &Layout) -> Value {
     })
 }
 
-/// The elements that a step of an edit script has touched.
+/// The elements that each step of an edit script has touched.
 #[cfg(feature = "script")]
-pub fn edit_step(step: &AppliedStep, number: usize) -> Value {
+pub fn edit_steps(steps: &[AppliedStep]) -> Value {
+    let numbered = steps.iter().zip(1..);
+    numbered
+        .map(|(step, number)| edit_step(step, number))
+        .collect()
+}
+
+#[cfg(feature = "script")]
+fn edit_step(step: &AppliedStep, number: usize) -> Value {
     let touched = &step.touched;
     json!({
         "step": number,

@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Largest error of the length of a run, in meters: a tenth of a millimeter.
-const LENGTH_TOLERANCE_M: f64 = 1e-4;
+pub(super) const LENGTH_TOLERANCE_M: f64 = 1e-4;
 /// Index that means "none" in the columns of nodes and levels.
 pub(super) const NONE: u32 = u32::MAX;
 

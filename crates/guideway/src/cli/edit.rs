@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use guideway::formats::Target;
-use guideway::json::edit_step;
+use guideway::json::edit_steps;
 use guideway::layout::{UserError, shown_path};
 use guideway::scene::Table;
 use guideway::script::{self, Applied, AppliedStep, SHOWN_NAMES, Script};
@@ -68,16 +68,12 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let written = written.transpose()?;
     let write_ms = written.as_ref().map_or(0.0, |written| written.ms);
     let total_ms = read_ms + edit_ms + write_ms;
-    let numbered = steps.iter().zip(1..);
-    let steps_json: Vec<_> = numbered
-        .map(|(step, number)| edit_step(step, number))
-        .collect();
     let body = json!({
         "file": args.input.path.to_string_lossy(),
         "script": args.script.to_string_lossy(),
         "output": output.map(|output| output.to_string_lossy()),
         "dry_run": args.dry_run,
-        "steps": steps_json,
+        "steps": edit_steps(&steps),
         "refused": refused,
         "not_stored": written.as_ref().map_or(json!([]), Written::losses_json),
         "ms": { "read": read_ms, "edit": edit_ms, "write": write_ms, "total": total_ms },
