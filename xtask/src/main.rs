@@ -3,6 +3,7 @@
 mod beside;
 mod conformance;
 mod debian_rust;
+mod macos;
 mod pack;
 mod prerequisites;
 mod published;
@@ -40,6 +41,7 @@ cargo xtask dist [--windows]
                         packages in target/dist/packages: .deb and .tar.xz of the programs and of
                         the C library, checksums, SBOM; .zip and installer for Windows beside them
 cargo xtask header      writes the header of the C interface
+cargo xtask macos       the compiler checks the programs for macOS, and runs nothing
 cargo xtask semver      the interfaces of the crates, compared with those of the last tag
 cargo xtask soak [MINUTES [SEED [FILE]]]
                         the window under random input for that time (default: 1); writes a record
@@ -69,6 +71,7 @@ fn main() -> ExitCode {
         ("dist", []) => pack::run(),
         ("dist", [arg]) if arg == "--windows" => windows::dist(),
         ("header", []) => header(),
+        ("macos", []) => macos::check(),
         ("semver", []) => semver::check(),
         ("web", rest) => web::run(rest),
         ("windows", rest) => windows::run(rest),
