@@ -27,6 +27,7 @@ mod slider;
 mod status_bar;
 mod still_part;
 mod table;
+mod text_focus;
 mod toolbar;
 mod welcome;
 

@@ -2,13 +2,13 @@
 
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use guideway_document::{Document, Element};
+use guideway_document::{Document, Element, Elements, SelectMode};
 use guideway_layout::Direction;
 use guideway_scene::Table;
 use guideway_spline::Point;
 
 use super::services::{TestServices, lanes};
-use super::test_window::{TestWindow, has_notice};
+use super::test_window::{TestWindow, field, has_notice};
 use crate::command::Command;
 use crate::panels::SideTab;
 
@@ -78,6 +78,28 @@ fn fillet_asks_for_a_radius_and_says_which_one_fits() {
 }
 
 #[test]
+fn typing_replaces_the_text_of_a_question() {
+    let mut window = corner();
+    let type_at_once = |window: &mut TestWindow, text: &str| {
+        window.harness.run_steps(2);
+        window.harness.event(Event::Text(text.into()));
+        window.harness.run_steps(2);
+    };
+    window.key(NONE, Key::Q);
+    assert!(window.harness.query(field("1")).is_some(), "a proposal");
+    type_at_once(&mut window, "2");
+    assert!(window.harness.query(field("2")).is_some());
+    // A longer text in the same place: the cursor of the last one does not count.
+    window.key(NONE, Key::Escape);
+    window.change(|document| {
+        document.select_elements(&Elements::of_paths([0]), SelectMode::Replace);
+    });
+    window.key(NONE, Key::F2);
+    type_at_once(&mut window, "dock");
+    assert!(window.harness.query(field("dock")).is_some());
+}
+
+#[test]
 fn split_and_join_are_inverse() {
     let mut window = TestWindow::showing(lanes(2));
     let at = window.at(3.0, 0.0);
@@ -124,11 +146,11 @@ fn nodes_are_aligned_and_distributed() {
     window.edit(|document| document.move_node(2, Point::new(1.0, 2.3)));
     let nodes = [0, 2, 4].into_iter().collect();
     window.change(move |document| {
-        let elements = guideway_document::Elements {
+        let elements = Elements {
             nodes,
-            ..guideway_document::Elements::default()
+            ..Elements::default()
         };
-        document.select_elements(&elements, guideway_document::SelectMode::Replace);
+        document.select_elements(&elements, SelectMode::Replace);
     });
     perform(&mut window, Command::AlignX);
     let at = |window: &mut TestWindow, node| window.document().node_position_m(node);
@@ -176,10 +198,7 @@ fn elements_are_copied_between_files_and_cut() {
     });
     window.app().files.activate(0);
     window.change(|document| {
-        document.select(
-            [1].into_iter().collect(),
-            guideway_document::SelectMode::Replace,
-        );
+        document.select([1].into_iter().collect(), SelectMode::Replace);
     });
     // The window system sends these instead of keys.
     window.harness.event(Event::Copy);

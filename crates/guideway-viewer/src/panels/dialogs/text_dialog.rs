@@ -5,6 +5,7 @@ use eframe::egui::{Button, Context, Id, Key, Modal, TextEdit};
 use super::answer::Answer;
 use crate::action::{Action, TypeRename};
 use crate::language::t;
+use crate::panels::text_focus::focus_all;
 use crate::selection::{TextQuestion, prompted_edit};
 
 /// Width of the field, in points.
@@ -61,7 +62,7 @@ impl TextDialog {
             let field = TextEdit::singleline(&mut open.question.text).desired_width(WIDTH);
             let field = ui.add_enabled(!is_waiting, field).labelled_by(label.id);
             if open.answer.takes_focus() {
-                field.request_focus();
+                focus_all(ctx, &field, &open.question.text);
             }
             open.answer.show_error(ui);
             ui.horizontal(|ui| {

@@ -9,6 +9,7 @@ use super::pickers;
 use crate::action::Action;
 use crate::editing::EditTask;
 use crate::language::{t, translated};
+use crate::panels::text_focus::focus_all;
 use crate::units::shown_unit;
 
 /// Least width of the names, in points.
@@ -20,6 +21,8 @@ const MAX_NAME_WIDTH: f32 = 200.0;
 #[derive(Default)]
 pub(super) struct Entry {
     draft: Option<Draft>,
+    /// The field that takes the focus once it is shown.
+    wants_focus: Option<Target>,
     /// The text of a field that the drawing ought to show, and the one that it shows.
     wanted: Option<(Target, String)>,
     previewed: Option<(Target, String)>,
@@ -42,6 +45,11 @@ impl Entry {
     /// Returns `true` if a text is being typed.
     pub(super) fn has_draft(&self) -> bool {
         self.draft.is_some()
+    }
+
+    /// Gives the focus to the field of a target once it is shown.
+    pub(super) fn focus(&mut self, target: Target) {
+        self.wants_focus = Some(target);
     }
 
     /// Takes back a text that was typed but not confirmed.
@@ -102,6 +110,13 @@ impl Entry {
         let mut text = typed.map_or_else(|| before.clone(), |draft| draft.text.clone());
         let field = TextEdit::singleline(&mut text).hint_text(hint);
         let response = ui.add(field.desired_width(pickers::field_width(ui)));
+        if self
+            .wants_focus
+            .take_if(|wanted| *wanted == target)
+            .is_some()
+        {
+            focus_all(ui.ctx(), &response, &text);
+        }
         let has_focus = response.has_focus();
         let is_typed = self
             .draft

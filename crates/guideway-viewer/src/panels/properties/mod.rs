@@ -262,6 +262,8 @@ impl PropertiesPanel {
                 if ui.button(vehicle_type).clicked() {
                     let added = (shown.of, field.name.clone(), vehicle_type.clone());
                     self.added_types.push(added);
+                    self.entry
+                        .focus(property_target(shown, field, Some(vehicle_type)));
                     ui.close();
                 }
             }
@@ -301,6 +303,10 @@ impl PropertiesPanel {
                 let button = ui.add_enabled(!is_shown, button);
                 if button.on_hover_text(translated(property.meaning)).clicked() {
                     self.added.push((shown.of, property));
+                    // What is typed next is its value.
+                    if let Some(field) = shown.empty_field(property) {
+                        self.entry.focus(property_target(shown, &field, None));
+                    }
                     ui.close();
                 }
             }
