@@ -8,7 +8,6 @@ use guideway_document::Document;
 use guideway_spline::Affine;
 
 use super::state::App;
-use super::waiting::Input;
 use crate::canvas::CanvasPainter;
 use crate::files::{Layer, LayerContext};
 use crate::language::{say, set_language};
@@ -273,10 +272,8 @@ impl App {
             if layer.is_none() || self.dialogs.is_modal(&self.files) {
                 return self.waiting.clear();
             }
-            match self.waiting.next() {
-                Some(Input::Command(command)) => self.perform_now(command, ctx),
-                Some(Input::Pointer(event)) => self.point_now(event),
-                None => {}
+            if let Some((input, place)) = self.waiting.next() {
+                self.run_postponed(input, place, ctx);
             }
         }
     }

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
+use crate::canvas::CanvasPlace;
 use crate::command::Command;
 use crate::tools::PointerEvent;
 
@@ -13,11 +14,11 @@ pub(super) enum Input {
     Pointer(PointerEvent),
 }
 
-/// The input that waits, and the file that it is for.
+/// The input that waits, with the view and the pointer of its time, and the file that it is for.
 #[derive(Default)]
 pub(super) struct WaitingInput {
     file: PathBuf,
-    inputs: VecDeque<Input>,
+    inputs: VecDeque<(Input, CanvasPlace)>,
 }
 
 impl WaitingInput {
@@ -30,12 +31,12 @@ impl WaitingInput {
     }
 
     /// Adds an input for a file. Those for another file are forgotten.
-    pub(super) fn push(&mut self, file: &Path, input: Input) {
+    pub(super) fn push(&mut self, file: &Path, input: Input, place: CanvasPlace) {
         if !self.is_for(file) {
             self.inputs.clear();
             file.clone_into(&mut self.file);
         }
-        self.inputs.push_back(input);
+        self.inputs.push_back((input, place));
     }
 
     /// Returns `true` if the input is for this file.
@@ -44,7 +45,7 @@ impl WaitingInput {
     }
 
     /// Takes the input that came first.
-    pub(super) fn next(&mut self) -> Option<Input> {
+    pub(super) fn next(&mut self) -> Option<(Input, CanvasPlace)> {
         self.inputs.pop_front()
     }
 }

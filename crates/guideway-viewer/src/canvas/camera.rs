@@ -61,6 +61,19 @@ impl Camera {
         View::new(self.size?, self.position.center_m, self.position.px_per_m).ok()
     }
 
+    /// Shows another view for a while, apart from the history. Returns the present one.
+    pub(super) fn exchange_view(&mut self, view: Option<View>) -> Option<View> {
+        let present = self.view();
+        if let Some(view) = view {
+            self.size = Some(view.size());
+            self.position = Position {
+                center_m: view.center_m(),
+                px_per_m: view.px_per_m(),
+            };
+        }
+        present
+    }
+
     /// Sets the size of the canvas. The center stays, but the view of all files follows the size of
     /// the window until the user moves it.
     pub(crate) fn resize(&mut self, width: u32, height: u32) {

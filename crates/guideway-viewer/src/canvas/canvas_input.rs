@@ -144,6 +144,22 @@ impl Canvas {
         Some(self.screen.pixel(at))
     }
 
+    /// The view, and the pointer as of the last event.
+    pub(crate) fn place(&self) -> CanvasPlace {
+        CanvasPlace {
+            view: self.camera.view(),
+            pointer: self.pointer.at(),
+        }
+    }
+
+    /// Takes the view and the pointer of another time. Returns those of the present.
+    pub(crate) fn exchange_place(&mut self, place: CanvasPlace) -> CanvasPlace {
+        CanvasPlace {
+            view: self.camera.exchange_view(place.view),
+            pointer: self.pointer.exchange_at(place.pointer),
+        }
+    }
+
     /// Returns `true` while a button that went down on the canvas is down.
     pub(crate) fn is_pressed(&self) -> bool {
         self.pointer.is_pressed()
@@ -229,6 +245,13 @@ impl Canvas {
                 .zoom(ZOOM_PER_NOTCH.powf(f64::from(notches)), at_px);
         }
     }
+}
+
+/// The view and the place of the pointer in the window at some time.
+#[derive(Clone, Copy)]
+pub(crate) struct CanvasPlace {
+    view: Option<View>,
+    pointer: Option<Pos2>,
 }
 
 /// The place of a pointer event in the window.

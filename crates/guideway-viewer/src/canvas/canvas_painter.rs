@@ -324,8 +324,9 @@ impl CanvasPainter<'_> {
         let pointer_m = self
             .pointer_px
             .map(|at_px| self.view.world_from_pixel(at_px));
-        if let Gesture::Box { from_px, to_px } = self.tools.gesture() {
-            paint_box(painter, self.screen, *from_px, *to_px);
+        if let Gesture::Box { from_m, to_m } = *self.tools.gesture() {
+            let [from_px, to_px] = [from_m, to_m].map(|at_m| self.view.pixel_from_world(at_m));
+            paint_box(painter, self.screen, from_px, to_px);
         }
         if let Some(sketch) = self.tools.sketch(&context, pointer_m, self.modifiers) {
             let paths = sketch

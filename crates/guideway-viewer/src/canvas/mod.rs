@@ -25,7 +25,7 @@ mod pointer_tracker;
 mod screen;
 mod shape_text;
 
-pub(crate) use canvas_input::Canvas;
+pub(crate) use canvas_input::{Canvas, CanvasPlace};
 pub(crate) use canvas_painter::CanvasPainter;
 #[cfg(test)]
 pub(crate) use canvas_painter::shown_colors;

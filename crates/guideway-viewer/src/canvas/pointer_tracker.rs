@@ -61,6 +61,11 @@ impl PointerTracker {
         self.at
     }
 
+    /// Takes another place of the pointer. Returns the present one.
+    pub(super) fn exchange_at(&mut self, at: Option<Pos2>) -> Option<Pos2> {
+        std::mem::replace(&mut self.at, at)
+    }
+
     /// Returns `true` while a button that went down on the canvas is down.
     pub(crate) fn is_pressed(&self) -> bool {
         self.press.is_some()

@@ -103,6 +103,23 @@ pub(crate) enum Command {
 }
 
 impl Command {
+    /// Returns `true` if it may move the camera.
+    pub(crate) fn moves_camera(self) -> bool {
+        matches!(
+            self,
+            Self::PanLeft
+                | Self::PanRight
+                | Self::PanUp
+                | Self::PanDown
+                | Self::ZoomToAll
+                | Self::ZoomToSelection
+                | Self::ZoomIn
+                | Self::ZoomOut
+                | Self::Back
+                | Self::Forward
+        )
+    }
+
     /// Its name outside of menus, without the points that announce a dialog.
     pub(crate) fn name(self) -> String {
         self.label().trim_end_matches('…').to_owned()

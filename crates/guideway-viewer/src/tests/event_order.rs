@@ -4,9 +4,10 @@
 use std::sync::mpsc::{self, Sender};
 use std::time::Duration;
 
-use eframe::egui::{Event, Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 use guideway_document::{Document, Elements, Group, SelectMode};
+use guideway_spline::Point;
 
 use super::levels::two_levels;
 use super::safety::{ids, in_one_frame, is_shown, key};
@@ -131,6 +132,54 @@ fn clicks_and_commands_that_wait_keep_their_order() {
     assert_eq!(names, 4, "one is deleted, another one is split");
     assert!(!ids(window.document()).contains(&"lane 1"));
     assert_eq!(window.selected(), [2]);
+}
+
+#[test]
+fn clicks_and_commands_that_wait_mean_the_places_of_their_time() {
+    let mut window = TestWindow::showing(lanes(4));
+    let lanes = [0.0, 2.0, 4.0].map(|y| window.at(2.0, y));
+    window.click(lanes[0]);
+    let done = keep_document(&mut window);
+    window.key(NONE, Key::Delete);
+    window.click(lanes[1]);
+    window.key(NONE, Key::K);
+    window.click(lanes[2]);
+    // Everything is elsewhere when the document comes back.
+    let view = window.app().canvas.camera.view();
+    window.wheel(lanes[0] + Vec2::new(200.0, -100.0), 4.0);
+    let moved = window.app().canvas.camera.view();
+    assert_ne!(moved, view);
+    give_back(&mut window, &done);
+    window.wait(|app| app.files.is_settled());
+    assert_eq!(window.app().canvas.camera.view(), moved, "the view stays");
+    assert_eq!(
+        ids(window.document()).len(),
+        4,
+        "one is deleted, one is split"
+    );
+    assert!(!ids(window.document()).contains(&"lane 0"));
+    let node = window.document().node_near(Point::new(2.0, 2.0), 0.1);
+    assert!(node.is_some(), "where the pointer was");
+    let selected = window.selected();
+    let name = window.document().layout().paths.id(selected[0] as usize);
+    assert_eq!((selected.len(), name), (1, "lane 2"));
+}
+
+#[test]
+fn box_keeps_its_corners_while_the_view_moves() {
+    let mut window = TestWindow::showing(lanes(4));
+    // Lanes are 10 m long and 2 m apart: the box holds the middle two.
+    let corners = [window.at(-0.2, 1.0), window.at(10.2, 5.0)];
+    window.press(corners[0], NONE);
+    window.harness.event(Event::PointerMoved(corners[1]));
+    window.harness.step();
+    window.wheel(corners[1], -2.0);
+    let end = window.at(10.2, 5.0);
+    window.harness.event(Event::PointerMoved(end));
+    window.harness.step();
+    window.release(end, NONE);
+    window.wait(|app| app.files.is_settled());
+    assert_eq!(window.selected(), [1, 2]);
 }
 
 #[test]

@@ -26,15 +26,16 @@ impl Tools {
             self.gesture = Gesture::Idle;
             return None;
         };
+        let at_m = context.world(at_px);
         let selection_box = Gesture::Box {
-            from_px: at_px,
-            to_px: at_px,
+            from_m: at_m,
+            to_m: at_m,
         };
         let selected = document.selected();
         let is_selected = |symbol| selected.contains(symbol);
         self.gesture = match self.tool {
             Tool::Select if context.pick_symbol(at_px).is_some_and(is_selected) => Gesture::Move {
-                from_m: context.world(at_px),
+                from_m: at_m,
                 by_m: Point::new(0.0, 0.0),
                 by_end: false,
             },
@@ -51,7 +52,6 @@ impl Tools {
             },
             _ => {
                 let handle = hit_handle(document, &context.view, at_px);
-                let at_m = context.world(at_px);
                 let node = document.node_near(at_m, context.hit_radius_m());
                 match (handle, node) {
                     (Some(handle), _) => Gesture::Handle {
@@ -78,10 +78,10 @@ impl Tools {
         modifiers: Modifiers,
         context: &ToolContext<'_>,
     ) -> Option<ToolEffect> {
-        let has_document = context.document.is_some();
+        let (has_document, at_m) = (context.document.is_some(), context.world(at_px));
         match &mut self.gesture {
-            Gesture::Box { to_px, .. } => {
-                *to_px = at_px;
+            Gesture::Box { to_m, .. } => {
+                *to_m = at_m;
                 return None;
             }
             Gesture::Move {
@@ -89,7 +89,7 @@ impl Tools {
                 by_end,
                 by_m,
             } => {
-                let (at_m, snaps) = (context.world(at_px), self.snaps);
+                let snaps = self.snaps;
                 let node_m = match *by_end {
                     true => snap_to_node(context, at_m, modifiers),
                     false => None,
@@ -102,18 +102,18 @@ impl Tools {
             }
             Gesture::Node { progress, .. } | Gesture::Handle { progress, .. } if !has_document => {
                 // The last edit is in progress; what is missed now the next movement makes up for.
-                progress.missed = Some((at_px, modifiers));
+                progress.missed = Some((at_m, modifiers));
                 return None;
             }
             _ => {}
         }
-        self.edit_at(at_px, modifiers, context)
+        self.edit_at(at_m, modifiers, context)
     }
 
     /// The edit of a drag that the layout follows at once; `None` for other gestures.
     fn edit_at(
         &mut self,
-        at_px: Point<f64>,
+        at_m: Point<f64>,
         modifiers: Modifiers,
         context: &ToolContext<'_>,
     ) -> Option<ToolEffect> {
@@ -129,7 +129,6 @@ impl Tools {
             move |document: &mut Document| {
                 progress.take_back(document);
                 let context = context.of(document);
-                let at_m = context.world(at_px);
                 let to_m = snap_point(&context, &before, snaps, at_m, modifiers).at_m;
                 match before {
                     Gesture::Node { node, .. } => document.move_node(node, to_m),
@@ -146,19 +145,18 @@ impl Tools {
         context: &ToolContext<'_>,
     ) -> Option<ToolEffect> {
         if let Gesture::Node { progress, .. } | Gesture::Handle { progress, .. } = self.gesture
-            && let Some((at_px, modifiers)) = progress.missed
+            && let Some((at_m, modifiers)) = progress.missed
         {
-            let edit = self.edit_at(at_px, modifiers, context);
+            let edit = self.edit_at(at_m, modifiers, context);
             self.gesture = Gesture::None;
             return edit;
         }
         match std::mem::take(&mut self.gesture) {
-            Gesture::Box { from_px, to_px } => {
-                let corners = [from_px, to_px].map(|pixel| context.world(pixel));
+            Gesture::Box { from_m, to_m } => {
                 // The CAD convention: a box from right to left selects all paths that it crosses,
                 // one from left to right only those inside.
-                let crosses = to_px.x < from_px.x;
-                let (bounds, mode) = (Bounds::of_points(corners)?, select_mode(modifiers));
+                let crosses = to_m.x < from_m.x;
+                let (bounds, mode) = (Bounds::of_points([from_m, to_m])?, select_mode(modifiers));
                 Some(ToolEffect::Edit(EditTask::view_change(move |document| {
                     document.select_in(bounds, crosses, mode);
                 })))

@@ -4,7 +4,7 @@ use eframe::egui::Modifiers;
 use guideway_document::{Document, PointRef};
 use guideway_spline::Point;
 
-/// The gesture in progress. Screen positions are pixels from the upper left corner of the picture.
+/// The gesture in progress. Places are those of the world: the view may change meanwhile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) enum Gesture {
     #[default]
@@ -13,8 +13,8 @@ pub(crate) enum Gesture {
     Idle,
     /// Drags a selection box.
     Box {
-        from_px: Point<f64>,
-        to_px: Point<f64>,
+        from_m: Point<f64>,
+        to_m: Point<f64>,
     },
     /// Moves the selection, shown as an outline until the button is released. Held by the end of a
     /// path, it snaps to nodes.
@@ -45,7 +45,7 @@ pub(crate) struct DragProgress {
     /// The state of the document before the drag. Each edit of the drag starts from it, so that the
     /// whole drag is one step to undo.
     pub(super) before: u64,
-    /// The last place of the pointer, in pixels, while an earlier edit had the document.
+    /// The last place of the pointer, in meters, while an earlier edit had the document.
     pub(super) missed: Option<(Point<f64>, Modifiers)>,
 }
 
