@@ -52,7 +52,8 @@ impl FileServices {
 impl AppServices for FileServices {
     fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
         let progress = JobProgress(job);
-        Ok(read_file(path, &window::read_options(Some(&progress)))?)
+        let layout = read_file(path, &window::read_options(Some(&progress)));
+        layout.map_err(|error| window::explain_image(path, error.into()))
     }
 
     fn example_site(&self) -> Result<Layout, UserError> {

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `default_command` | the command that `guideway FILE` means |
 //! | `app`, `start` | parse arguments, dispatch to a subcommand, exit |
-//! | `input`, `floor_plan`, `envelope`, `number_args`, `values`, `limits` | read arguments and files |
+//! | `input`, `image_name`, `floor_plan`, `envelope`, `number_args`, `values`, `limits` | read arguments and files |
 //! | `layout_output`, `picture_file`, `picture_output` | outputs: layouts, names of pictures, pictures |
 //! | `output`, `stdout`, `text`, `colors`, `progress_bar`, `error`, `process`, `panic` | reports, errors, exit codes, threads and signals |
 //! | all others | one subcommand each |
@@ -24,6 +24,7 @@ mod envelope;
 mod error;
 mod floor_plan;
 mod generate;
+mod image_name;
 mod info;
 mod input;
 mod layout_output;

@@ -18,6 +18,7 @@ use guideway::formats::ros_map::{self, OccupancyGrid};
 use guideway::layout::{Layout, UserError, shown_path};
 
 use super::error::usage_error;
+use super::image_name;
 use super::input::{self, Input};
 use super::limits;
 use super::output::Output;
@@ -67,7 +68,8 @@ pub(crate) fn read_walls(input: &Input, out: &Output) -> Result<Layout, UserErro
 }
 
 fn read_layout(input: &Input, out: &Output) -> Result<Layout, UserError> {
-    let (layout, _) = input::read_all(std::slice::from_ref(input), out)?;
+    let read = input::read_all(std::slice::from_ref(input), out);
+    let (layout, _) = read.map_err(|error| image_name::explain(&input.path, error))?;
     Ok(layout)
 }
 

@@ -18,6 +18,7 @@ use crate::cli::output::Output;
 use crate::cli::start::{self, GlobalOptions};
 use crate::cli::{demo, floor_plan, output, packed, process};
 
+pub use crate::cli::image_name::explain as explain_image;
 pub use crate::cli::layout_output::{target_to_save, write_into};
 pub use crate::cli::limits::read_options;
 pub use crate::cli::text::time as shown_time;
