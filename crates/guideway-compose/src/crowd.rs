@@ -67,6 +67,17 @@ impl Covered {
     }
 }
 
+/// Returns `true` if a whole picture of this many paths is a crowd: they cover more than half of
+/// the box around them, so their density says more than their colors.
+pub fn is_crowd(picture: &Frame, background: Rgba, paths: u64) -> bool {
+    if paths < MANY_PATHS {
+        return false;
+    }
+    let mut covered = Covered::default();
+    covered.add(picture, background);
+    covered.is_crowd(paths)
+}
+
 /// Extends a range by another one.
 fn widen(range: &mut Option<Range<usize>>, by: Range<usize>) {
     *range = Some(match range.take() {

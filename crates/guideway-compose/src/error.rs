@@ -27,9 +27,6 @@ pub enum ComposeError {
         /// The most frequent reason.
         reason: NoEnvelope,
     },
-    /// SVG and PDF hold the curves themselves, so they have no count of paths per pixel.
-    #[error("SVG and PDF cannot show density shading: they hold curves, not pixels")]
-    DensityInVector,
 }
 
 /// Why an image was not read as a floor plan.
@@ -55,11 +52,6 @@ impl From<ComposeError> for UserError {
                 "usage",
                 error.to_string(),
                 "Give the size of the vehicle, such as `--envelope 2x1.2`",
-            ),
-            ComposeError::DensityInVector => Self::new(
-                "usage",
-                error.to_string(),
-                "Omit --shade, or save the picture as PNG",
             ),
         }
     }

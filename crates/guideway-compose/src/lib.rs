@@ -11,7 +11,7 @@
 //! | grid, zones | scene, view, [`DecorationStyle`] | `decorations` |
 //! | swept areas | paths, vehicle ([`SweptAreas`]) | `backdrop` |
 //! | other scenes | [`Scene`](guideway_scene::Scene)s below the topmost one | `backdrop` |
-//! | paths | the topmost scene | a render method, `vector` |
+//! | paths | the topmost scene | a render method, `vector`, `density_image` |
 //! | route | paths in order ([`MarkedRoute`]) | `decorations` |
 //! | arrows, nodes, stations, labels | scene, view | `decorations` |
 //! | legend, title, scale bar | scene, view | `decorations` |
@@ -50,6 +50,7 @@ mod blend;
 mod center_lines;
 mod crowd;
 mod decorations;
+mod density_image;
 mod error;
 mod kept_method;
 mod levels;
@@ -69,6 +70,7 @@ pub use backdrop::{
     Backdrop, FloorPlan, FloorPlanKind, Image, PreparedFloorPlan, SweptAreas, SweptReport,
     draw_swept_areas,
 };
+pub use crowd::is_crowd;
 pub use decorations::{Decorations, MarkedRoute};
 pub use error::{ComposeError, ImageError};
 pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, scale_bar};

@@ -1,7 +1,9 @@
 //! Tests that strips of a picture add up to the picture rendered at once, with every layer.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use guideway_cpu::Cpu;
-use guideway_formats::{ReadOptions, read_file};
+use guideway_formats::{ReadOptions, raster, read_file};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{
     Budget, ColorBy, DrawList, Preparation, Prepared, Rgba, Scene, SceneOptions, Shading, Strip,
@@ -10,7 +12,7 @@ use guideway_scene::{
 use guideway_spline::Point;
 
 use super::*;
-use crate::{Backdrop, Decorations, FloorPlan, KeptMethod, SweptAreas};
+use crate::{Backdrop, Decorations, FloorPlan, KeptMethod, SweptAreas, VectorFormat};
 
 /// Method `cpu` with another limit on the pixels per strip.
 struct InStrips(usize);
@@ -197,10 +199,38 @@ fn swept_areas_of_no_path_are_an_error() {
     assert!(matches!(error, ComposeError::NoEnvelope { .. }), "{error}");
 }
 
+/// The density of a line and its legend, as an image in both formats; the image is as sharp as
+/// print.
 #[test]
-fn density_shading_has_no_svg() {
+fn density_is_an_image_with_its_legend_in_svg_and_pdf() {
     let folder = tempfile::tempdir().unwrap();
-    let error = density().save_svg(folder.path().join("a.svg")).unwrap_err();
-    assert!(matches!(error, ComposeError::DensityInVector));
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    let mut picture = density();
+    picture.decorations.has_legend = true;
+    let (svg, pdf) = (folder.path().join("a.svg"), folder.path().join("a.pdf"));
+    let rendered = picture.save_svg(&svg).unwrap();
+    assert_eq!(rendered.report.drawn, rendered.report.total);
+    let text = std::fs::read_to_string(&svg).unwrap();
+    assert!(text.contains("paths per pixel"), "{text}");
+    let data = text.split("data:image/png;base64,").nth(1).unwrap();
+    let png = STANDARD.decode(data.split('"').next().unwrap()).unwrap();
+    let image = raster::read_bytes(png, "a.png").unwrap();
+    assert_eq!(image.width as u32, 4 * size().width());
+    // No curve is left beside the image, which would show through it.
+    let mut curves = plain();
+    curves.overlay = DrawList::default();
+    let of = |picture: &Picture| {
+        let mut bytes = Vec::new();
+        let fail = |_| unreachable!("memory takes all bytes");
+        picture
+            .write_vector(VectorFormat::Svg, &mut bytes, fail)
+            .unwrap();
+        String::from_utf8(bytes).unwrap().matches("<path").count()
+    };
+    let mut shaded = density();
+    shaded.overlay = DrawList::default();
+    assert_eq!((of(&curves) > 0, of(&shaded)), (true, 0));
+    picture.save_vector(VectorFormat::Pdf, &pdf).unwrap();
+    let bytes = std::fs::read(&pdf).unwrap();
+    let has = |part: &[u8]| bytes.windows(part.len()).any(|bytes| bytes == part);
+    assert!(has(b"/Image") && has(b"/SMask"));
 }

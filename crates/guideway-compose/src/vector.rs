@@ -3,18 +3,31 @@
 use std::io;
 
 use guideway_layout::PathRef;
-use guideway_scene::{DrawList, Scene, Style, View};
+use guideway_scene::{DrawList, Legend, Report, Scene, Shading, Style, View};
 use guideway_spline::{Bounds, Point};
 
+use crate::density_image::write_density;
 use crate::page::Page;
 
-/// Writes the paths of a scene in draw order. Returns the number of paths in the view.
+/// The paths that were written.
+pub(crate) struct WrittenPaths {
+    /// Number of paths in the view.
+    pub(crate) drawn: u64,
+    /// Meaning of the colors of density shading.
+    pub(crate) density: Option<Legend>,
+}
+
+/// Writes the paths of a scene in draw order, or their density as an image.
 pub(crate) fn write_paths(
     scene: &Scene,
     view: &View,
     style: &Style,
     page: &mut impl Page,
-) -> io::Result<u64> {
+) -> io::Result<WrittenPaths> {
+    if style.shading != Shading::Color {
+        let Report { drawn, density, .. } = write_density(scene, view, style, page)?;
+        return Ok(WrittenPaths { drawn, density });
+    }
     let mut drawn = 0;
     for &path in scene.draw_order() {
         let width_px = width_px(scene, path, view, style);
@@ -24,7 +37,10 @@ pub(crate) fn write_paths(
         let id = (!id.is_empty()).then_some(id);
         page.path(id, &outline, scene.color(path), width_px)?;
     }
-    Ok(drawn)
+    Ok(WrittenPaths {
+        drawn,
+        density: None,
+    })
 }
 
 /// Stroke width of a path in a view, in pixels.

@@ -1,4 +1,5 @@
-//! Writes a picture as SVG or PDF: the same layers, order, colors and widths, as exact curves.
+//! Writes a picture as SVG or PDF: the same layers, order, colors and widths, as exact curves;
+//! density shading as an image.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -6,11 +7,11 @@ use std::path::Path;
 
 use guideway_formats::svg::{Stroke, SvgWriter};
 use guideway_formats::{SaveError, replace_file};
-use guideway_scene::{MethodInfo, Report, Shading, View};
+use guideway_scene::{MethodInfo, Report, View};
 use guideway_spline::Point;
 
 use crate::backdrop::VisibleBackdrop;
-use crate::decorations::PlacedDecorations;
+use crate::decorations::{PlacedDecorations, density_legend};
 use crate::page::Page;
 use crate::pdf::PdfPage;
 use crate::render::join;
@@ -48,8 +49,8 @@ impl Picture {
     /// Writes the picture as a file of vector graphics, atomically.
     ///
     /// # Errors
-    /// When the style has density shading, the view is out of range, swept areas are requested and
-    /// no path has one, or the file cannot be written.
+    /// When the view is out of range, swept areas are requested and no path has one, or the file
+    /// cannot be written.
     pub fn save_vector(
         &self,
         format: VectorFormat,
@@ -87,9 +88,6 @@ impl Picture {
 
     /// The pictures of all levels, or this one.
     fn sheet(&self) -> Result<Vec<Placed<'_>>, ComposeError> {
-        if self.style.shading != Shading::Color {
-            return Err(ComposeError::DensityInVector);
-        }
         if self.levels.is_empty() {
             return Ok(vec![Placed {
                 picture: Cow::Borrowed(self),
@@ -206,14 +204,20 @@ impl Prepared<'_> {
         let (view, decorations) = (&self.view, &self.decorations);
         let below = [&decorations.grid, &decorations.zones];
         self.backdrop.write(below, view, style, page)?;
-        let drawn = write_paths(scene, view, style, page)?;
+        let paths = write_paths(scene, view, style, page)?;
         for marks in [&self.picture.overlay, &decorations.marks] {
             write_draw_list(marks, "marks", page)?;
         }
         for (list, label) in &decorations.margin {
             write_draw_list(list, label, page)?;
         }
-        Ok(drawn)
+        if let (Some(corner), Some(colors)) = (decorations.density_corner, &paths.density) {
+            let place = (&self.picture.decorations, view.size());
+            let style = self.picture.decoration_style();
+            let list = density_legend(colors, corner, place, &style);
+            write_draw_list(&list.unwrap_or_default(), "legend", page)?;
+        }
+        Ok(paths.drawn)
     }
 }
 

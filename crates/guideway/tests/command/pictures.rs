@@ -35,9 +35,23 @@ fn pdf_and_svg_go_to_files_and_to_standard_output() {
     assert!(render(&nameless, &["--to", "svg"]).status.success());
     let both = render(&folder.path().join("b.png"), &["--to", "svg"]);
     assert_eq!(both.status.code(), Some(2));
-    let density = render(&folder.path().join("c.pdf"), &["--shade", "density"]);
-    assert!(stderr(&density).contains("save the picture as PNG"));
     assert_eq!(names_in(folder.path()), ["a.pdf", "picture"]);
+}
+
+#[test]
+fn density_goes_into_pdf_and_svg_with_its_scale() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a.svg", "a.pdf"] {
+        let file = folder.path().join(name);
+        let output = render(&file, &["--size", "640x360", "--shade", "density"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
+    let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    assert!(svg.contains("data:image/png;base64,") && svg.contains("paths per pixel"));
+    assert!(!svg.contains("<path id="), "curves would show through");
+    let pdf = fs::read(folder.path().join("a.pdf")).unwrap();
+    let sizes = b"/Width 2560/Height 1440";
+    assert!(pdf.windows(sizes.len()).any(|bytes| bytes == sizes));
 }
 
 #[test]
