@@ -50,6 +50,9 @@ pub(crate) struct DisplaySettings {
     /// Least width on screen, in points.
     pub(crate) min_px: f64,
     pub(crate) is_density: bool,
+    /// True if density is shown because paths would cover the picture, until the user decides.
+    #[serde(skip)]
+    pub(crate) is_crowded: bool,
     pub(crate) has_arrows: bool,
     pub(crate) has_symbols: bool,
     pub(crate) has_labels: bool,
@@ -77,6 +80,7 @@ impl Default for DisplaySettings {
             width_m: 0.1,
             min_px: 1.5,
             is_density: false,
+            is_crowded: false,
             has_arrows: true,
             has_symbols: true,
             has_labels: true,
@@ -175,12 +179,22 @@ impl DisplaySettings {
         self.color_by != other.color_by
     }
 
+    /// Returns `true` if the density of paths is shown, not their colors.
+    pub(crate) fn shows_density(&self) -> bool {
+        self.is_density || self.is_crowded
+    }
+
+    /// Shows density or colors, as the user decides.
+    pub(crate) fn set_density(&mut self, is_shown: bool) {
+        (self.is_density, self.is_crowded) = (is_shown, false);
+    }
+
     /// The style of the picture of one file. Its background is transparent: the window paints
     /// background, grid and other files below it.
     pub(crate) fn style(&self, px_per_point: f64) -> Style {
         Style {
             line_rule: self.line_rule(px_per_point),
-            shading: if self.is_density {
+            shading: if self.shows_density() {
                 Shading::Density(ToneMap::Log)
             } else {
                 Shading::Color

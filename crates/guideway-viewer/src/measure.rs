@@ -133,8 +133,11 @@ impl SimulatedUser {
                 asked();
             }
         }));
+        let mut app = App::launch(Arc::new(ask(&is_asked)), services, options);
+        // Colors are measured, whatever the file.
+        app.shows_crowds = false;
         Self {
-            app: App::launch(Arc::new(ask(&is_asked)), services, options),
+            app,
             context,
             gate,
             is_asked,

@@ -34,6 +34,8 @@ impl App {
     pub(super) fn close(&mut self, index: usize) {
         self.files.close(index);
         self.tools.clear_hover();
+        // The next file may be no crowd.
+        self.settings.is_crowded &= !self.files.layers().is_empty();
     }
 
     /// Closes a file; asks first if it has unsaved changes.

@@ -8,6 +8,7 @@ use eframe::egui::Context;
 use super::state::{App, FIRST_FRAME_WAIT, FIRST_PICTURE_WAIT};
 use crate::backdrop::ActiveDocument;
 use crate::files::{Layer, LayerContext, LayerEvent};
+use crate::language::t;
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
 
@@ -113,6 +114,13 @@ impl App {
                     self.set_method(Some(FALLBACK_METHOD.to_owned()));
                 }
             }
+            LayerEvent::Crowded if self.shows_crowds && self.settings.color_by.is_none() => {
+                self.settings.is_crowded = true;
+                self.dialogs.notices.inform(t(
+                    "Many paths cover the picture, so it shows their density; Y shows their colors",
+                ));
+            }
+            LayerEvent::Crowded => {}
             LayerEvent::Notice(text) => self.dialogs.notices.add(text),
         }
     }

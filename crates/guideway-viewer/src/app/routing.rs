@@ -194,7 +194,7 @@ impl App {
             Command::Symbols => settings.has_symbols ^= true,
             Command::Labels => settings.has_labels ^= true,
             Command::Grid => settings.has_grid ^= true,
-            Command::Density => settings.is_density ^= true,
+            Command::Density => settings.set_density(!settings.shows_density()),
             Command::ThesisRule => settings.is_thesis_rule ^= true,
             Command::SweptAreas => self.swept_areas.is_visible ^= true,
             Command::Dark => {

@@ -90,6 +90,8 @@ pub(crate) struct App {
     pub(crate) edit_wait: Duration,
     /// Time that the first frames still wait for a picture.
     pub(crate) first_picture_wait: Duration,
+    /// True if a crowd of paths is shown as density until the user decides.
+    pub(crate) shows_crowds: bool,
 }
 
 impl App {
@@ -146,6 +148,7 @@ impl App {
             title: String::new(),
             edit_wait: EDIT_WAIT,
             first_picture_wait: Duration::ZERO,
+            shows_crowds: true,
         };
         if let Some(notice) = notice {
             app.dialogs.notices.add(notice);

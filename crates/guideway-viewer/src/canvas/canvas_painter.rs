@@ -67,7 +67,7 @@ pub(crate) fn shown_colors<'a>(
     files: &'a OpenFiles,
     settings: &DisplaySettings,
 ) -> Option<&'a Legend> {
-    match settings.is_density {
+    match settings.shows_density() {
         true => files.active()?.picture.shown()?.report.density.as_ref(),
         false => files.document()?.scene().legend(),
     }

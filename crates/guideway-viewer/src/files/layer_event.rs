@@ -12,6 +12,8 @@ pub(crate) enum LayerEvent {
     Reached(LoadStage),
     /// The fallback method replaced the selected one; the reason as a sentence.
     FellBack(String),
+    /// So many paths cover its first picture that their density says more.
+    Crowded,
     /// A notice for the user.
     Notice(String),
 }

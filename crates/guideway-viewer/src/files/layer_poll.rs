@@ -78,6 +78,7 @@ impl Layer {
                 PictureEvent::NeedsScene => self.send_scene(),
                 PictureEvent::FellBack(why) => events.push(LayerEvent::FellBack(why)),
                 PictureEvent::Failed(why) => self.error = Some(why),
+                PictureEvent::Crowded => events.push(LayerEvent::Crowded),
             }
         }
     }

@@ -67,7 +67,7 @@ impl CommandState<'_> {
             Command::Symbols => self.settings.has_symbols,
             Command::Labels => self.settings.has_labels,
             Command::Grid => self.settings.has_grid,
-            Command::Density => self.settings.is_density,
+            Command::Density => self.settings.shows_density(),
             Command::ThesisRule => self.settings.is_thesis_rule,
             Command::Dark => self.settings.is_dark,
             Command::SweptAreas => self.has_swept_areas,

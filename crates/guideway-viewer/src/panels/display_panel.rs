@@ -41,7 +41,10 @@ pub(super) fn show(
         let min_width = Slider::new(&mut settings.min_px, MIN_PX_RANGE).suffix(" pt");
         ui.add(min_width.text(t("Minimum")));
     });
-    ui.checkbox(&mut settings.is_density, t("Density"));
+    let mut shows_density = settings.shows_density();
+    if ui.checkbox(&mut shows_density, t("Density")).clicked() {
+        settings.set_density(shows_density);
+    }
     ui.checkbox(&mut settings.has_arrows, t("Arrows"));
     ui.checkbox(&mut settings.has_symbols, t("Nodes and stations"));
     ui.checkbox(&mut settings.has_labels, t("Labels"));
@@ -63,6 +66,8 @@ pub(super) fn show(
         actions.push(Action::ApplyTheme);
     }
     if before.needs_other_scene(settings) {
+        // A user who chooses colors wants to see them.
+        settings.is_crowded = false;
         actions.push(Action::Recolor);
     }
 }

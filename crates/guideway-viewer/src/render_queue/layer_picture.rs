@@ -63,6 +63,8 @@ pub(crate) enum PictureEvent {
     FellBack(String),
     /// The last request has no picture; the reason.
     Failed(String),
+    /// So many paths cover the first picture that their density says more.
+    Crowded,
 }
 
 impl LayerPicture {
@@ -164,6 +166,7 @@ impl LayerPicture {
                 Ok(RenderEvent::NeedsScene) => events.push(PictureEvent::NeedsScene),
                 Ok(RenderEvent::FellBack(why)) => events.push(PictureEvent::FellBack(why)),
                 Ok(RenderEvent::Failed(why)) => events.push(PictureEvent::Failed(why)),
+                Ok(RenderEvent::Crowded) => events.push(PictureEvent::Crowded),
                 Err(TryRecvError::Empty) => return events,
                 Err(TryRecvError::Disconnected) => {
                     events.push(PictureEvent::FellBack(say!(

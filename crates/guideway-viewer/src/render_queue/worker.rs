@@ -6,10 +6,11 @@ use std::thread::JoinHandle;
 use std::time::Instant;
 
 use eframe::egui::ColorImage;
+use guideway_compose::is_crowd;
 use guideway_layout::UserError;
 use guideway_scene::{
-    Budget, Cancel, DevicePicture, EditOutcome, Frame, Method, Prepared, RenderError, Report,
-    Scene, elapsed_ms,
+    Budget, Cancel, DevicePicture, EditOutcome, Frame, Method, Prepared, RenderError, Report, Rgba,
+    Scene, Shading, elapsed_ms,
 };
 
 use super::background_picture::color_image;
@@ -30,6 +31,8 @@ pub(crate) enum RenderEvent {
     FellBack(String),
     /// The request has no picture; the reason.
     Failed(String),
+    /// So many paths cover the first picture of all that their density says more.
+    Crowded,
 }
 
 /// A finished picture.
@@ -71,6 +74,7 @@ pub(super) fn spawn(
         has_requested_scene: true,
         frame: None,
         last_picture: None,
+        is_judged: false,
     };
     // Without a thread the sender is dropped, which the window reports.
     let thread = start_thread(move || worker.run());
@@ -93,6 +97,8 @@ struct Worker {
     frame: Option<Frame>,
     /// The request of the last picture, if it was finished.
     last_picture: Option<RenderRequest>,
+    /// True once a picture of all paths was examined for a crowd.
+    is_judged: bool,
 }
 
 impl Worker {
@@ -173,7 +179,14 @@ impl Worker {
     fn render(&mut self, request: RenderRequest, cancel: &Cancel) {
         let started = Instant::now();
         match self.picture(&request, cancel, started) {
-            Ok(picture) => self.send(RenderEvent::Picture(Box::new(picture))),
+            Ok(picture) => {
+                let (culled, drawn) = (picture.report.culled, picture.report.drawn);
+                let has_pixels = matches!(picture.pixels, Pixels::InMemory(_));
+                self.send(RenderEvent::Picture(Box::new(picture)));
+                if culled == 0 && has_pixels && request.style.shading == Shading::Color {
+                    self.judge(request.style.background, drawn);
+                }
+            }
             Err(Stop::NoScene) if self.has_requested_scene => {}
             Err(Stop::NoScene) => {
                 self.has_requested_scene = true;
@@ -185,6 +198,17 @@ impl Worker {
                 self.fall_back(&request, cancel, &error.to_string());
             }
             Err(Stop::Render(error)) => self.send(RenderEvent::Failed(error.to_string())),
+        }
+    }
+
+    /// Reports a crowd in the first picture of all paths, once the window has it.
+    fn judge(&mut self, background: Rgba, drawn: u64) {
+        if std::mem::replace(&mut self.is_judged, true) {
+            return;
+        }
+        let mut frame = self.frame.iter();
+        if frame.any(|frame| is_crowd(frame, background, drawn)) {
+            self.send(RenderEvent::Crowded);
         }
     }
 

@@ -25,6 +25,7 @@ mod methods;
 mod network;
 mod panels;
 mod partial_redraw;
+mod pictures;
 mod projects;
 mod properties;
 mod random_input;
