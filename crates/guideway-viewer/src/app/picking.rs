@@ -13,6 +13,13 @@ use crate::panels::BottomView;
 use crate::route::{FoundRoute, place_of};
 use crate::tools::{MAX_HOVER_CANDIDATES, OtherHit, PointerEvent, Tool};
 
+/// Most stations that are searched on each movement of the pointer: one after the other.
+const MAX_SEARCHED_STATIONS: usize = 20_000;
+
+fn has_few_stations(document: &Document) -> bool {
+    document.layout().stations.len() <= MAX_SEARCHED_STATIONS
+}
+
 impl App {
     /// Looks under the pointer in the other files where the active one has nothing, and makes the
     /// file that was clicked the active one.
@@ -35,6 +42,26 @@ impl App {
             }
             _ => {}
         }
+    }
+
+    /// Tells the tools which station or node is under the pointer, where such symbols are drawn:
+    /// where there are too many to draw them, they are also too many to search.
+    pub(super) fn hover_symbol(&mut self, event: &PointerEvent) {
+        let PointerEvent::Hover(at_px) = *event else {
+            return;
+        };
+        let layer = self.files.active().filter(|layer| layer.is_visible);
+        let is_drawn = layer.is_some_and(|layer| {
+            let overlay = layer.slot.overlay().last();
+            overlay.is_some_and(|overlay| !overlay.marks.left_out)
+                && layer.document().is_some_and(has_few_stations)
+        });
+        let at_px = at_px.filter(|_| is_drawn && !self.tools.has_gesture());
+        let context = tool_context_of(layer, &self.canvas, &self.settings);
+        let symbol = at_px
+            .zip(context)
+            .and_then(|(at_px, context)| context.pick_symbol(at_px));
+        self.tools.hover_symbol(symbol);
     }
 
     /// Takes the station, node or end of a path at a pixel as a place of the route.

@@ -304,6 +304,7 @@ impl App {
             return self.pick_place(at_px);
         }
         self.pick_in_others(&event);
+        self.hover_symbol(&event);
         let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
             if matches!(event, PointerEvent::DragEnded(_)) {
                 self.tools.abort_drag();

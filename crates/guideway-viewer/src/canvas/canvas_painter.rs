@@ -106,13 +106,13 @@ impl CanvasPainter<'_> {
             let shown = shown.map(|shown| (shown.texture_id(), &shown.view));
             self.paint_picture(painter, shown, layer.look.opacity);
         }
-        let mut marks = self.marks(&style);
-        let active = self.files.active().filter(|layer| layer.is_visible);
-        let of_active = active.and_then(|_| marks.pop());
-        self.paint_others(painter, &marks);
-        if let (Some(layer), Some(marks)) = (active, of_active) {
-            self.paint_overlay(painter, layer, &marks);
+        for marks in self.marks(&style) {
+            list(marks);
         }
+        if let Some(layer) = self.files.active().filter(|layer| layer.is_visible) {
+            self.paint_overlay(painter, layer);
+        }
+        self.paint_hits_in_others(painter);
         self.paint_tools(painter);
         self.paint_findings(painter);
         self.paint_gesture(painter);
@@ -192,13 +192,12 @@ impl CanvasPainter<'_> {
         marks
     }
 
-    /// Paints the marks of the files that are not active, and what the pointer means in one.
-    fn paint_others(&self, painter: &Painter, marks: &[DrawList]) {
+    /// Paints what the pointer means in a file that is not active, above the marks of all files.
+    fn paint_hits_in_others(&self, painter: &Painter) {
         let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
         let active = self.files.active().map(Layer::path);
         let others = self.files.visible().filter(|l| Some(l.path()) != active);
-        for (layer, marks) in others.zip(marks) {
-            paint_draw_list(painter, self.screen, marks);
+        for layer in others {
             if let Some(overlay) = layer.slot.overlay().last() {
                 let place = |pixel| self.placed(&overlay.view, pixel);
                 if let Some(members) = &overlay.highlighted {
@@ -226,8 +225,8 @@ impl CanvasPainter<'_> {
         }
     }
 
-    /// Paints outlines and marks of the active file.
-    fn paint_overlay(&self, painter: &Painter, layer: &Layer, marks: &DrawList) {
+    /// Paints outlines of the active file: above the marks of all files, which would hide them.
+    fn paint_overlay(&self, painter: &Painter, layer: &Layer) {
         let Some(overlay) = layer.slot.overlay().last() else {
             return;
         };
@@ -242,7 +241,6 @@ impl CanvasPainter<'_> {
             .radius_px(None, view.px_per_m());
         let stroke = |color| Stroke::new(MIN_OUTLINE_WIDTH.max((radius_px / scale) as f32), color);
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
-        paint_draw_list(painter, screen, marks);
         if let Gesture::Move { by_m, .. } = self.tools.gesture() {
             // A moving selection stands out by itself, without a glow.
             let by = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
@@ -261,6 +259,11 @@ impl CanvasPainter<'_> {
             paint_glowing(painter, &lines, hovered, |pixel| screen.point(pixel));
         }
         paint_rings(painter, &overlay.symbols, SELECTION_COLOR, to_screen);
+        let symbol = self.tools.hovered_symbol(document);
+        if let Some(bounds) = symbol.and_then(|symbol| document?.bounds_of(symbol)) {
+            let at_px = view.pixel_from_world(bounds.center());
+            paint_rings(painter, &[at_px], HOVER_COLOR, |pixel| screen.point(pixel));
+        }
         if let Some(members) = &overlay.of_selected {
             let thin = stroke(SELECTION_COLOR.gamma_multiply(MEMBERS_OPACITY));
             paint_outline(painter, &members.paths, thin, to_screen);

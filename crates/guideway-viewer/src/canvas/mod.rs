@@ -30,6 +30,8 @@ pub(crate) use canvas_painter::CanvasPainter;
 #[cfg(test)]
 pub(crate) use canvas_painter::shown_colors;
 pub(crate) use paint_findings::severity_color;
+#[cfg(test)]
+pub(crate) use paint_gesture::{HOVER_COLOR, SELECTION_COLOR};
 pub(crate) use paint_network::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 pub(crate) use paint_tools::change_color;
 pub(crate) use shape_text::shape_text;

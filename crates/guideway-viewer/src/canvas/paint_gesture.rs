@@ -6,8 +6,8 @@ use guideway_spline::Point;
 
 use super::screen::Screen;
 
-pub(super) const SELECTION_COLOR: Color32 = Color32::from_rgb(30, 120, 255);
-pub(super) const HOVER_COLOR: Color32 = Color32::from_rgb(255, 140, 0);
+pub(crate) const SELECTION_COLOR: Color32 = Color32::from_rgb(30, 120, 255);
+pub(crate) const HOVER_COLOR: Color32 = Color32::from_rgb(255, 140, 0);
 /// Least width of an outline, in points.
 pub(super) const MIN_OUTLINE_WIDTH: f32 = 2.5;
 /// Width of the glow of an outline on both sides together, in points.

@@ -2,7 +2,7 @@
 //! the pointer.
 
 use eframe::egui::{Label, Ui};
-use guideway_document::{Document, Hit, text_format};
+use guideway_document::{Document, Element, Hit, text_format};
 
 use super::digits::Digits;
 use super::findings_panel::finding_text;
@@ -36,6 +36,12 @@ impl StatusBar<'_> {
                 return;
             }
             let document = self.files.document();
+            let symbol = self.tools.hovered_symbol(document);
+            if let (Some(symbol), Some(document)) = (symbol, document) {
+                let hovered = hovered_symbol(document, symbol);
+                ui.add(Label::new(hovered).truncate().selectable(false));
+                return;
+            }
             if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {
                 let hovered = hovered(document, hit);
                 ui.add(Label::new(hovered).truncate().selectable(false));
@@ -118,19 +124,29 @@ fn scale_text(points_per_m: f64) -> String {
     format!("1:{}", grouped(((exact / unit).round() * unit) as u64))
 }
 
+/// The station or node under the pointer.
+fn hovered_symbol(document: &Document, symbol: Element) -> String {
+    let name = symbol.id(document.layout());
+    match symbol {
+        Element::Station(_) => say!("station {name}", name),
+        _ => say!("node {name}", name),
+    }
+}
+
 /// The path under the pointer, and its reverse path.
 fn hovered(document: &Document, hit: &Hit) -> String {
     let paths = &document.layout().paths;
     let path = paths.get(hit.path as usize);
-    let way = direction_name(path.direction());
     let id = |path: u32| paths.id(path as usize);
-    let length = text_format::length(path.length_m());
-    let text = say!(
-        "path {name}: {length}, {way}",
-        name = id(hit.path),
-        length,
-        way
-    );
+    let (name, length) = (id(hit.path), text_format::length(path.length_m()));
+    let text = match document.layout().is_drawing() {
+        // Nobody drives on its lines.
+        true => say!("path {name}: {length}", name, length),
+        false => {
+            let way = direction_name(path.direction());
+            say!("path {name}: {length}, {way}", name, length, way)
+        }
+    };
     match document.reverse_path_at(hit, MAX_HOVER_CANDIDATES) {
         Some(reverse) => {
             let reverse = id(reverse);

@@ -187,6 +187,17 @@ fn set_speed(window: &mut TestWindow, speed: &str) {
 }
 
 #[test]
+fn lines_of_a_drawing_have_no_direction() {
+    let mut window = showing_drawing();
+    let at = window.at(5.0, 5.0);
+    window.harness.event(Event::PointerMoved(at));
+    window.harness.run_steps(3);
+    let said = window.harness.query_by_label_contains(": 20 m");
+    let said = said.and_then(|label| label.accesskit_node().value());
+    assert!(said.is_some_and(|said| said.ends_with(": 20 m")));
+}
+
+#[test]
 fn what_cannot_become_a_network_says_why() {
     let mut window = showing_drawing();
     window.app().bottom.network.options.max_pieces = 2;

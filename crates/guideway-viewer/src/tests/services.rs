@@ -286,20 +286,19 @@ impl AppServices for TestServices {
 
     fn export_vector(
         &self,
-        _: &PictureRequest,
+        export: &PictureRequest,
         _: VectorFormat,
         path: &Path,
     ) -> Result<(), UserError> {
         self.wait_for_disk(&Job::default())?;
+        locked(&self.pictures).push((path.to_owned(), export.clone()));
         locked(&self.files).insert(path.to_owned(), Layout::default());
         Ok(())
     }
 
     fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
-        match plan {
-            text if text.contains("hall.png@px-per-m=") => Ok(hall()),
-            _ => Err(Self::error("not a floor plan")),
-        }
+        let plan = plan.contains("hall.png@px-per-m=").then(hall);
+        plan.ok_or_else(|| Self::error("not a floor plan"))
     }
 
     fn render_swept_areas(

@@ -1,7 +1,7 @@
 //! The cursor over the canvas.
 
 use eframe::egui::CursorIcon;
-use guideway_document::{Document, Hit};
+use guideway_document::{Document, Element};
 
 use super::gesture::Gesture;
 use super::tool_set::Tools;
@@ -15,11 +15,11 @@ impl Tools {
             }
             (_, tool) if tool.adds_points() => CursorIcon::Crosshair,
             _ => {
-                let hovered = self.hovered(document);
+                let path = self.hovered(document).map(|hit| Element::Path(hit.path));
                 let is_selected =
-                    |hit: &Hit| document.is_some_and(|d| d.selection().contains(hit.path));
-                match hovered {
-                    Some(hit) if is_selected(hit) => CursorIcon::Move,
+                    |element| document.is_some_and(|d| d.selected().contains(element));
+                match self.hovered_symbol(document).or(path) {
+                    Some(element) if is_selected(element) => CursorIcon::Move,
                     Some(_) => CursorIcon::PointingHand,
                     None => CursorIcon::Default,
                 }

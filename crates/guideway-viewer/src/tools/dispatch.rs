@@ -56,7 +56,9 @@ impl Tools {
                 return self.finish_path(context);
             }
             Tool::Measure => self.gesture = Gesture::None,
-            Tool::Select if self.hovered(context.document).is_some() => self.select(Tool::Points),
+            Tool::Select if self.hovered_path(context.document).is_some() => {
+                self.select(Tool::Points);
+            }
             Tool::Select | Tool::Points | Tool::Node | Tool::Station => {}
         }
         None

@@ -1,7 +1,7 @@
 //! The selected tool, its gesture, and what points snap to.
 
 use eframe::egui::Modifiers;
-use guideway_document::{Document, EdgeTemplate, Hit, Snapped};
+use guideway_document::{Document, EdgeTemplate, Element, Hit, Snapped};
 use guideway_spline::Point;
 
 use super::gesture::Gesture;
@@ -11,7 +11,7 @@ use super::tool_context::ToolContext;
 use super::typed_text::TypedText;
 use crate::editing::EditTask;
 
-/// The selected tool, the gesture in progress, and the path under the pointer.
+/// The selected tool, the gesture in progress, and what is under the pointer.
 #[derive(Default)]
 pub(crate) struct Tools {
     pub(super) tool: Tool,
@@ -19,6 +19,8 @@ pub(crate) struct Tools {
     /// The text that is typed instead of a click.
     pub(super) typed: Option<TypedText>,
     pub(super) hover: Option<Hit>,
+    /// The station or node under the pointer, above the path.
+    pub(super) hover_symbol: Option<Element>,
     /// The targets of moves and new points.
     pub(crate) snaps: SnapSettings,
     /// The properties of new paths.
@@ -85,15 +87,36 @@ impl Tools {
         Some(ToolEffect::Edit(undo))
     }
 
-    /// The path under the pointer. `None` if the document was replaced by a shorter one.
+    /// The path under the pointer, unless a symbol is above it. `None` if the document was replaced
+    /// by a shorter one.
     pub(crate) fn hovered(&self, document: Option<&Document>) -> Option<&Hit> {
+        match self.hovered_symbol(document) {
+            Some(_) => None,
+            None => self.hovered_path(document),
+        }
+    }
+
+    /// The path under the pointer, although a symbol may be above it.
+    pub(super) fn hovered_path(&self, document: Option<&Document>) -> Option<&Hit> {
         let rows = document?.scene().row_count();
         self.hover.as_ref().filter(|hit| (hit.path as usize) < rows)
     }
 
-    /// Forgets the path under the pointer.
+    /// The station or node under the pointer, which a click would select.
+    pub(crate) fn hovered_symbol(&self, document: Option<&Document>) -> Option<Element> {
+        let document = document?;
+        self.hover_symbol
+            .filter(|&symbol| self.tool == Tool::Select && document.contains(symbol))
+    }
+
+    /// Takes the station or node under the pointer.
+    pub(crate) fn hover_symbol(&mut self, symbol: Option<Element>) {
+        self.hover_symbol = symbol;
+    }
+
+    /// Forgets what is under the pointer.
     pub(crate) fn clear_hover(&mut self) {
-        self.hover = None;
+        (self.hover, self.hover_symbol) = (None, None);
     }
 
     /// The position meant by a click at `at_m`: a node, a place of a path, a direction (Shift), a
