@@ -79,7 +79,7 @@ impl App {
         });
         match place {
             Some(place) => self.bottom.route.choose(place),
-            None => self.dialogs.notices.add(t(
+            None => self.dialogs.notices.inform(t(
                 "Nothing is there; click a station, a node or the end of a path",
             )),
         }

@@ -36,27 +36,16 @@ impl FindingsPanel {
     }
 
     /// The name of the tab, with the number of errors, warnings and notes in their colors; of the
-    /// worst ones alone where there is little space.
-    pub(super) fn title(files: &OpenFiles, points: f32, is_short: bool) -> WidgetText {
+    /// worst ones alone where there is little space. Colors do not show on the tab in front.
+    pub(super) fn title(
+        files: &OpenFiles,
+        points: f32,
+        is_short: bool,
+        is_in_front: bool,
+    ) -> WidgetText {
         let findings = files.active().and_then(|layer| layer.tasks.findings());
         let counts = findings.map_or([0; 3], |findings| by_severity(&findings.diagnostics));
-        let mut title = LayoutJob::default();
-        let mut add = |text: &str, color: Color32| {
-            let format = TextFormat {
-                color,
-                font_id: FontId::proportional(points),
-                ..TextFormat::default()
-            };
-            title.append(text, 0.0, format);
-        };
-        add(t("Findings"), Color32::PLACEHOLDER);
-        let counted = counts.into_iter().zip(SEVERITIES);
-        let counted = counted.filter(|(count, _)| *count > 0);
-        for (count, severity) in counted.take(if is_short { 1 } else { counts.len() }) {
-            let count = format!(" {}", grouped(count));
-            add(&count, severity_color(severity));
-        }
-        title.into()
+        title(counts, points, is_short, is_in_front).into()
     }
 
     /// Shows the tab.
@@ -212,6 +201,31 @@ pub(super) fn finding_text(finding: &Diagnostic) -> String {
     format!("{}: {}", translated(&place), translated(&finding.message))
 }
 
+/// The name of the tab and these numbers of errors, warnings and notes.
+fn title(counts: [u64; 3], points: f32, is_short: bool, is_in_front: bool) -> LayoutJob {
+    let mut title = LayoutJob::default();
+    let mut add = |text: &str, color: Color32| {
+        let format = TextFormat {
+            color,
+            font_id: FontId::proportional(points),
+            ..TextFormat::default()
+        };
+        title.append(text, 0.0, format);
+    };
+    add(t("Findings"), Color32::PLACEHOLDER);
+    let counted = counts.into_iter().zip(SEVERITIES);
+    let counted = counted.filter(|(count, _)| *count > 0);
+    for (count, severity) in counted.take(if is_short { 1 } else { counts.len() }) {
+        let count = format!(" {}", grouped(count));
+        let color = match is_in_front {
+            true => Color32::PLACEHOLDER,
+            false => severity_color(severity),
+        };
+        add(&count, color);
+    }
+    title
+}
+
 /// The name of a code in words: `Reverse pair`.
 pub(crate) fn title_of(code: Code) -> String {
     let words = code.name().replace('-', " ");
@@ -232,6 +246,22 @@ mod tests {
         assert_eq!(panel.check_options().min_radius_m, None);
         panel.min_radius_m = 0.5;
         assert_eq!(panel.check_options().min_radius_m, Some(0.5));
+    }
+
+    #[test]
+    fn counts_of_the_tab_are_legible_in_front_and_behind() {
+        let colors = |is_in_front| {
+            let title = title([2, 0, 70], 12.0, false, is_in_front);
+            assert_eq!(title.text, "Findings 2 70");
+            let parts = title.sections.iter().map(|part| part.format.color);
+            let mut colors: Vec<_> = parts.collect();
+            colors.dedup();
+            colors
+        };
+        let [errors, _, notes] = SEVERITIES.map(severity_color);
+        assert_eq!(colors(false), [Color32::PLACEHOLDER, errors, notes]);
+        // That of the text of the selected tab.
+        assert_eq!(colors(true), [Color32::PLACEHOLDER]);
     }
 
     #[test]

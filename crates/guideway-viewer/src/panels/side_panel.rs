@@ -150,8 +150,11 @@ impl SidePanel<'_> {
             // The names of all languages fit into one row of the panel's first width.
             ui.spacing_mut().item_spacing.x = 0.0;
             ui.spacing_mut().button_padding.x = TAB_PADDING;
+            let is_in_front = self.tabs.tab == SideTab::Findings;
             let title = |tab: SideTab, is_short| match tab {
-                SideTab::Findings => FindingsPanel::title(self.files, TAB_POINTS, is_short),
+                SideTab::Findings => {
+                    FindingsPanel::title(self.files, TAB_POINTS, is_short, is_in_front)
+                }
                 _ => RichText::new(tab.name()).size(TAB_POINTS).into(),
             };
             // More findings must not push the tabs into a second row.

@@ -1,6 +1,6 @@
 //! The window in German: no English is left in menus, panels, findings, reports and errors.
 
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, Shape};
 use egui_kittest::kittest::{NodeT, Queryable};
 use guideway_document::SelectMode;
 use guideway_formats::ReadOptions;
@@ -166,6 +166,35 @@ fn report_of_a_network_is_german() {
         .query_all_by_label_contains("Einbahn: Fahrzeuge");
     assert!(line.count() + one_way.count() > 0);
     assert_eq!(english(&window), [""; 0]);
+}
+
+/// The choice of a flag that differs has a button behind it, and little room.
+#[test]
+fn choices_of_several_values_are_not_cut() {
+    let mut layout = lanes(2);
+    for (row, flag) in [(0, true), (1, false)] {
+        layout.paths.vehicle_types_mut().set(row, &["tug"]);
+        let value = guideway_layout::Value::Bool(flag);
+        layout.paths.attributes.set(row, "rotationAllowed", value);
+    }
+    let mut window = german(layout);
+    for (language, word) in [
+        (Language::German, "mehrere"),
+        (Language::English, "several"),
+    ] {
+        window.app().settings.language = Some(language);
+        window.key(Modifiers::COMMAND, Key::A);
+        window.app().side.open(SideTab::Properties);
+        window.harness.run_steps(4);
+        let shapes = window.harness.output().shapes.iter();
+        let texts = shapes.filter_map(|shape| match &shape.shape {
+            Shape::Text(text) if text.galley.job.text == word => Some(&text.galley),
+            _ => None,
+        });
+        let texts: Vec<_> = texts.collect();
+        assert!(!texts.is_empty(), "{word}");
+        assert!(texts.iter().all(|text| !text.elided), "{word} is cut");
+    }
 }
 
 #[test]

@@ -33,7 +33,8 @@ pub(super) fn choice(
     let shown = match value {
         Common::Same(value) => value,
         Common::None => t("none"),
-        Common::Several => t("several values"),
+        // There is less room than in a field.
+        Common::Several => t("several"),
     };
     let combo = ComboBox::from_id_salt(format!("{:?}", target.subject));
     let combo = combo.selected_text(shown).truncate();
