@@ -1,7 +1,7 @@
 //! Nodes, stations and properties: select, edit, rename, undo.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers, Vec2};
 use egui_kittest::kittest::{By, Queryable};
 use guideway_document::Element;
 use guideway_layout::Value;
@@ -9,6 +9,7 @@ use guideway_layout::Value;
 use super::services::lanes;
 use super::test_window::{TestWindow, field, has_notice};
 use crate::app::App;
+use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -72,6 +73,57 @@ fn wrong_text_is_refused_and_escape_takes_a_text_back() {
     window.harness.run_steps(2);
     assert_eq!(speed(&mut window, 1), Some(0.5));
     assert!(!window.document().is_changed());
+}
+
+#[test]
+fn value_out_of_range_is_refused_with_the_range_and_changes_nothing() {
+    let mut layout = lanes(3);
+    let paths = &mut layout.paths.attributes;
+    paths.set_quantity(1, "maxSpeed", 1.25, guideway_layout::Quantity::Speed);
+    let mut window = TestWindow::showing(layout);
+    let at = window.at(5.0, 2.0);
+    window.click(at);
+    let max_speed = |window: &mut TestWindow| {
+        let paths = &window.document().layout().paths;
+        paths.attributes.value(1, "maxSpeed")?.number()
+    };
+    for (text, said) in [("-1", "at least 0"), ("1e999", "is no number")] {
+        window.type_over("1.25", text);
+        window.harness.run_steps(2);
+        assert!(has_notice(window.app(), said), "{text}");
+        assert_eq!(max_speed(&mut window), Some(1.25), "{text}");
+    }
+    assert!(!window.document().is_changed());
+}
+
+#[test]
+fn all_properties_can_be_added_in_a_low_window() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.harness.set_size(Vec2::new(1200.0, 480.0));
+    window.key(CTRL, Key::A);
+    window.app().side.open(SideTab::Properties);
+    window.harness.run_steps(4);
+    window
+        .harness
+        .get_all_by_label("Add property")
+        .next()
+        .unwrap()
+        .click();
+    window.harness.run_steps(4);
+    let first = window.harness.get_by_label("description").rect();
+    assert!(first.min.y >= 0.0);
+    let last = |window: &TestWindow| window.harness.get_by_label("locked").rect();
+    assert!(last(&window).min.y > 480.0, "there are more than fit");
+    window.wheel(first.center(), -30.0);
+    window.harness.run_steps(20);
+    let rect = last(&window);
+    assert!(rect.max.y <= 480.0, "{rect:?}");
+    window.click(rect.center());
+    window.harness.run_steps(4);
+    assert!(
+        window.harness.query_by_label("locked").is_some(),
+        "its field"
+    );
 }
 
 #[test]

@@ -14,7 +14,7 @@ mod shape;
 mod shown;
 mod typed_value;
 
-use eframe::egui::{Button, Grid, Label, Ui};
+use eframe::egui::{Button, Grid, Label, ScrollArea, Ui};
 use guideway_document::Document;
 use guideway_layout::{ElementKind, PROPERTIES, Property};
 use guideway_scene::Table;
@@ -31,6 +31,9 @@ use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
 use crate::language::{say, t, translated};
 use crate::units::{Units, units};
+
+/// Height of a window around its longest menu, in points.
+const MENU_MARGIN: f32 = 32.0;
 
 /// The section: what is shown, and the text that is being typed.
 #[derive(Default)]
@@ -294,23 +297,27 @@ impl PropertiesPanel {
             Table::Stations => ElementKind::Station,
         };
         ui.menu_button(t("Add property"), |ui| {
-            for property in PROPERTIES
-                .iter()
-                .filter(|property| property.of.contains(&kind))
-            {
-                let is_shown = shown.fields.iter().any(|field| field.name == property.name);
-                let button = Button::new(property.name);
-                let button = ui.add_enabled(!is_shown, button);
-                if button.on_hover_text(translated(property.meaning)).clicked() {
-                    self.added.push((shown.of, property));
-                    // What is typed next is its value.
-                    if let Some(field) = shown.empty_field(property) {
-                        self.entry.focus(property_target(shown, &field, None));
-                    }
-                    ui.close();
-                }
-            }
+            // More of them than a low window has room for.
+            let max_height = ui.ctx().content_rect().height() - MENU_MARGIN;
+            let list = ScrollArea::vertical().max_height(max_height);
+            list.show(ui, |ui| self.list_properties(ui, shown, kind));
         });
+    }
+
+    fn list_properties(&mut self, ui: &mut Ui, shown: &Shown, kind: ElementKind) {
+        let properties = PROPERTIES.iter();
+        for property in properties.filter(|property| property.of.contains(&kind)) {
+            let is_shown = shown.fields.iter().any(|field| field.name == property.name);
+            let button = ui.add_enabled(!is_shown, Button::new(property.name));
+            if button.on_hover_text(translated(property.meaning)).clicked() {
+                self.added.push((shown.of, property));
+                // The user types its value next.
+                if let Some(field) = shown.empty_field(property) {
+                    self.entry.focus(property_target(shown, &field, None));
+                }
+                ui.close();
+            }
+        }
     }
 }
 
