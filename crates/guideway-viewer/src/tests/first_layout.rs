@@ -5,13 +5,14 @@ use std::path::Path;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::{By, Queryable};
-use guideway_formats::{ReadOptions, Target, read_bytes};
+use guideway_formats::{Loss, ReadOptions, Target, read_bytes};
 use guideway_layout::{CheckOptions, Layout, Severity, Value, check};
 use guideway_scene::Table;
 
 use super::schema::schema_errors;
 use super::services::TestServices;
 use super::test_window::{TestWindow, has_notice};
+use crate::services::LostPart;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -78,6 +79,18 @@ fn create_stations(window: &mut TestWindow) {
     window.answer("dock");
 }
 
+/// The parts of a layout that a format does not hold as they are.
+fn losses_in(layout: &Layout, target: Target) -> Vec<LostPart> {
+    let losses = target.write(layout, &mut Vec::new());
+    let losses = losses.expect("memory takes all bytes");
+    let part = |loss: &Loss| LostPart {
+        what: loss.what.clone(),
+        count: loss.count,
+        detail: loss.detail.clone(),
+    };
+    losses.iter().map(part).collect()
+}
+
 fn written(layout: &Layout, target: Target) -> Layout {
     let mut bytes = Vec::new();
     let losses = target
@@ -116,21 +129,32 @@ fn from_nothing_to_a_valid_lif_file() {
     let counts = Table::ALL.map(|of| window.document().existing(of).count());
     assert_eq!(counts, [12, 10, 3], "paths, nodes, stations");
 
-    // The first save asks for a name.
+    // The first save asks for a name, and tells what LIF holds in another form.
+    let drawn = window.document().layout().clone();
+    *window.disk.losses.lock().unwrap() = losses_in(&drawn, Target::Lif1);
     window.key(CTRL, Key::S);
     assert!(!window.app().writer.is_busy());
     let prompt = window.app().dialogs.prompt.open_mut().unwrap();
     assert_eq!(prompt.text, "untitled.lif.json");
     prompt.text = "first.lif.json".into();
     window.key(NONE, Key::Enter);
+    window.wait(|app| app.dialogs.losses.is_open());
+    window.harness.run_steps(3);
+    let required = window
+        .harness
+        .query_by_label_contains("rotationAllowed (12)");
+    assert!(required.is_some());
+    window.harness.get_by_label("Save anyway").click();
     window.wait(|app| has_notice(app, "Saved first.lif.json"));
     window.wait(|app| app.files.active().is_some_and(|layer| !layer.is_changed()));
     let layout = window.disk.files.lock().unwrap()[Path::new("first.lif.json")].clone();
-    // The next one does not.
+    // The next one asks neither.
     window.key(NONE, Key::S);
     window.type_line("30,30");
     window.key(CTRL, Key::S);
     assert!(window.app().dialogs.prompt.open_mut().is_none());
+    window.wait(|app| app.files.active().is_some_and(|layer| !layer.is_changed()));
+    assert!(!window.app().dialogs.losses.is_open());
 
     for target in [Target::Lif1, Target::Lif2] {
         let read = written(&layout, target);
