@@ -288,7 +288,7 @@ export class GuidewayView extends Base {
     const bytes =
       format === "png"
         ? await this.call<ArrayBuffer>("png", [look])
-        : await this.call<ArrayBuffer>("curves", [{ ...look, shade: "color" }, format]);
+        : await this.call<ArrayBuffer>("curves", [look, format]);
     return new Blob([bytes]);
   }
 

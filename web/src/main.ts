@@ -338,8 +338,6 @@ function stem(): string {
 
 async function savePicture(format: string): Promise<void> {
   const look = map.lookNow;
-  // Curves show colors alone.
-  if (format !== "png") look.shade = "color";
   const call = format === "png" ? "png" : "curves";
   const bytes = await busy(t("Picture"), () => engine.call<ArrayBuffer>(call, [look, format]));
   if (bytes) download(`${stem()}.${format}`, bytes);

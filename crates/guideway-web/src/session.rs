@@ -197,10 +197,10 @@ impl Session {
         Ok(bytes)
     }
 
-    /// The picture as curves: `svg` or `pdf`.
+    /// The picture as curves: `svg` or `pdf`. Density is an image in it.
     ///
     /// # Errors
-    /// See [`Self::render`]; also when it shows density, which curves cannot.
+    /// See [`Self::render`].
     pub fn curves(&mut self, look: &str, format: &str) -> Result<Vec<u8>, UserError> {
         let format = match format {
             "svg" => VectorFormat::Svg,

@@ -262,6 +262,11 @@ fn files_and_pictures_are_those_of_the_library() {
     );
     let svg = session.curves(&look().to_string(), "svg").unwrap();
     assert!(svg.starts_with(b"<svg"));
+    let has_image = |svg: &[u8]| String::from_utf8_lossy(svg).contains("<image");
+    let mut density = look();
+    density["shade"] = json!("density");
+    let density = session.curves(&density.to_string(), "svg").unwrap();
+    assert!(has_image(&density) && !has_image(&svg));
     let unchanged = parsed(&session.diff(&site(), 10));
     assert_eq!(unchanged["changes"], json!([]));
     let findings = parsed(&session.check(10));
