@@ -13,7 +13,7 @@ use guideway::compose::{
 use guideway::envelope::EnvelopeSource;
 use guideway::formats::{Progress, Target, read_file};
 use guideway::layout::{Layout, UserError, shown_path};
-use guideway::scene::{Frame, Method, View, elapsed_ms};
+use guideway::scene::{Frame, Method, Shading, View, elapsed_ms};
 #[cfg(feature = "gpu")]
 use guideway_viewer::wgpu;
 use guideway_viewer::{
@@ -235,7 +235,9 @@ fn picture(request: &PictureRequest) -> Picture {
         others: request.others.clone(),
     };
     picture.overlay = request.marks.clone();
-    picture.decorations.has_legend = request.scene.legend().is_some();
+    // Levels and counts of density are explained too.
+    let has_density = request.style.shading != Shading::Color;
+    picture.decorations.has_legend = has_density || request.scene.legend().is_some();
     picture.decorations.px_per_point = Some(request.px_per_point);
     picture
 }
@@ -250,5 +252,92 @@ impl Progress for JobProgress<'_> {
 
     fn cancelled(&self) -> bool {
         self.0.is_cancelled()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway::layout::NewPath;
+    use guideway::scene::density::ToneMap;
+    use guideway::scene::{DrawList, FrameSize, LineRule, Scene, SceneOptions, Style};
+    use guideway::spline::{Point, Runs};
+
+    use super::*;
+
+    /// A line across a picture of 1,200 x 900 pixels.
+    fn request(shading: Shading) -> PictureRequest {
+        let mut runs = Runs::default();
+        runs.push_line(Point::new(0.0, 0.0), Point::new(12.0, 0.0));
+        let mut layout = Layout::default();
+        layout.paths.push(&NewPath {
+            id: "aisle",
+            runs: &runs,
+            ..NewPath::default()
+        });
+        let scene = Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap();
+        let size = FrameSize::new(1200, 900).unwrap();
+        PictureRequest {
+            scene: Arc::new(scene),
+            others: Vec::new(),
+            view: View::new(size, Point::new(6.0, 0.0), 20.0).unwrap(),
+            px_per_point: 2.0,
+            style: Style {
+                // The widths of a screen with two pixels per point.
+                line_rule: LineRule::default().scaled(2.0),
+                shading,
+                ..Style::default()
+            },
+            floor_plan: None,
+            floor_plan_opacity: 1.0,
+            swept: None,
+            grid: DrawList::default(),
+            marks: DrawList::default(),
+        }
+    }
+
+    fn svg(request: &PictureRequest) -> String {
+        let mut bytes = Vec::new();
+        let fail = |_| unreachable!("memory takes all bytes");
+        let written = picture(request).write_vector(VectorFormat::Svg, &mut bytes, fail);
+        written.unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn opened_file_named_like_an_image_is_told_as_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("plan.png");
+        std::fs::write(&file, b"\n \xED6\xBE\nlevels:\n\xFE\xD3").unwrap();
+        let services = FileServices::for_measurement();
+        let error = services.read_layout(&file, &Job::default()).err().unwrap();
+        let text = error.to_string();
+        assert!(text.contains("cannot read the image"), "{text}");
+        assert!(!text.contains("UTF-8"), "{text}");
+    }
+
+    #[test]
+    fn vector_pictures_have_the_widths_of_the_screen() {
+        let request = request(Shading::Color);
+        let rule = request.style.line_rule;
+        let width_px = 2.0 * rule.radius_px(None, request.view.px_per_m());
+        let text = svg(&request);
+        let width = format!("stroke-width=\"{width_px}\"");
+        assert!(text.contains(&width), "{width}: {text}");
+        assert!(!text.contains("paths per pixel"));
+    }
+
+    #[test]
+    fn density_has_its_scale_in_all_exports() {
+        let request = request(Shading::Density(ToneMap::Log));
+        assert!(request.scene.legend().is_none(), "no column is shown");
+        assert!(svg(&request).contains("paths per pixel"));
+        let has_legend = |has_legend: bool| {
+            let mut picture = picture(&request);
+            picture.decorations.has_legend &= has_legend;
+            let cpu = guideway::method("cpu").unwrap();
+            let progress = JobProgress(&Job::default());
+            picture.render_frame(&*cpu, &progress).unwrap().0
+        };
+        assert!(has_legend(true).pixels() != has_legend(false).pixels());
     }
 }
