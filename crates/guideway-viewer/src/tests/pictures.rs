@@ -158,13 +158,13 @@ fn pictures_show_lines_arrows_and_names_as_large_as_the_screen_does() {
         assert_eq!(shown[0], on_screen_px);
         // The names of the screen are as high.
         let texts = window.harness.output().shapes.iter();
-        let heights = texts.filter_map(|shape| match &shape.shape {
+        let mut heights = texts.filter_map(|shape| match &shape.shape {
             Shape::Text(text) if text.galley.text() == "lane 1" => {
                 Some(text.galley.job.sections[0].format.font_id.size)
             }
             _ => None,
         });
-        let height = heights.last().expect("the name is on the screen");
+        let height = heights.next_back().expect("the name is on the screen");
         assert!((f64::from(height * px_per_point) - shown[1]).abs() < 0.01);
         for factor in [2, 4] {
             let larger = sizes(&exported(&mut window, factor * width), width.into());
