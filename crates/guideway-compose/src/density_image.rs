@@ -8,7 +8,8 @@ use std::sync::Arc;
 use guideway_cpu::Cpu;
 use guideway_png::encode_png;
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, Method, RenderError, Report, Rgba, Scene, Style, View,
+    Budget, Cancel, Frame, FrameSize, Method, RenderError, Report, Rgba, Scene, Shading, Style,
+    View,
 };
 
 use crate::page::{Page, PageImage};
@@ -38,6 +39,15 @@ impl PageImage for DensityImage {
     }
 }
 
+/// A background that shows the layers below. Colors of density stand out from the paper, and a
+/// method takes nothing at all for white: hence the least opacity of that paper.
+pub(crate) fn see_through(style: &Style) -> Rgba {
+    Rgba {
+        a: u8::from(style.shading != Shading::Color).min(style.background.a),
+        ..style.background
+    }
+}
+
 /// Writes the density of a scene in a view. Returns the report with the meaning of its colors.
 ///
 /// # Errors
@@ -64,11 +74,7 @@ fn draw(scene: &Scene, view: &View, style: &Style) -> Result<(DensityImage, Repo
     let view = View::new(size, view.center_m(), view.px_per_m() * factor)?;
     let style = Style {
         line_rule: style.line_rule.scaled(factor),
-        // The layers below show through, and decide the colors no less.
-        background: Rgba {
-            a: 0,
-            ..style.background
-        },
+        background: see_through(style),
         ..*style
     };
     let mut prepared = Cpu.prepare(Arc::new(scene.clone()), &Budget::default())?;

@@ -12,6 +12,7 @@ use guideway_scene::{
 use crate::backdrop::SweptReport;
 use crate::crowd::Covered;
 use crate::decorations::density_legend;
+use crate::density_image::see_through;
 use crate::levels::copy;
 use crate::overlay::PreparedOverlay;
 use crate::{ComposeError, Picture, blend, save_png_by};
@@ -67,7 +68,7 @@ impl Picture {
         let mut backdrop = visible.prepare(below, method, &self.budget, &self.style, &view)?;
         let mut style = self.style;
         if backdrop.is_some() {
-            style.background.a = 0;
+            style.background = see_through(&style);
         }
         let mut prepared = method.prepare(Arc::clone(&self.scene), &self.budget)?;
         let prepare_ms = elapsed_ms(started);

@@ -199,6 +199,23 @@ fn swept_areas_of_no_path_are_an_error() {
     assert!(matches!(error, ComposeError::NoEnvelope { .. }), "{error}");
 }
 
+#[test]
+fn density_stands_out_from_dark_paper_above_other_layers_too() {
+    let colors = |lines: DrawList| {
+        let mut picture = density();
+        picture.style.background = Rgba::opaque(0x18, 0x18, 0x1a);
+        picture.backdrop.lines = lines;
+        let (_, rendered) = picture.render_frame(&Cpu, &NoProgress).unwrap();
+        rendered.report.density.unwrap().scale.unwrap().colors
+    };
+    assert_eq!(colors(shapes()), colors(DrawList::default()));
+    let mut light = density();
+    light.backdrop.lines = shapes();
+    let (_, rendered) = light.render_frame(&Cpu, &NoProgress).unwrap();
+    let of_light = rendered.report.density.unwrap().scale.unwrap().colors;
+    assert_ne!(colors(shapes()), of_light);
+}
+
 /// The density of a line and its legend, as an image in both formats; the image is as sharp as
 /// print.
 #[test]
