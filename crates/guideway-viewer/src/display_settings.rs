@@ -199,7 +199,14 @@ impl DisplaySettings {
             } else {
                 Shading::Color
             },
-            background: Rgba::from_u32(0),
+            background: match self.shows_density() {
+                // Its colors stand out from a paper, which nothing at all would be white.
+                true => Rgba {
+                    a: 1,
+                    ..self.background()
+                },
+                false => Rgba::from_u32(0),
+            },
         }
     }
 
@@ -228,6 +235,8 @@ impl DisplaySettings {
 
 #[cfg(test)]
 mod tests {
+    use guideway_scene::density::ToneScale;
+
     use super::*;
 
     #[test]
@@ -241,15 +250,21 @@ mod tests {
     }
 
     #[test]
-    fn paths_stand_out_on_light_and_dark() {
+    fn paths_and_density_stand_out_on_light_and_dark() {
         for is_dark in [false, true] {
             let settings = DisplaySettings {
                 is_dark,
+                is_density: true,
                 ..DisplaySettings::default()
             };
-            let contrast = contrast(PATH_COLOR, settings.background());
-            // The least contrast of graphics in WCAG 2.1, 1.4.11.
-            assert!(contrast >= 3.0, "{contrast}");
+            let paper = settings.background();
+            let tones = ToneScale::new(ToneMap::Log, settings.style(1.0).background);
+            let tones = tones.legend().scale.unwrap().colors;
+            for color in tones.into_iter().chain([PATH_COLOR]) {
+                let contrast = contrast(color, paper);
+                // The least contrast of graphics in WCAG 2.1, 1.4.11.
+                assert!(contrast >= 3.0, "{color} on {paper}: {contrast}");
+            }
         }
     }
 
