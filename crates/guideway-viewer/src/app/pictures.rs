@@ -116,6 +116,8 @@ impl App {
             }
             LayerEvent::Crowded if self.shows_crowds && self.settings.color_by.is_none() => {
                 self.settings.is_crowded = true;
+                // The pictures of this frame are requested already.
+                (self.context.repaint)();
                 self.dialogs.notices.inform(t(
                     "Many paths cover the picture, so it shows their density; Y shows their colors",
                 ));
