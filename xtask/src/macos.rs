@@ -1,5 +1,5 @@
-//! `cargo xtask macos`: the compiler checks the programs for macOS, with a standard library built for
-//! it. Nothing is linked or run: the libraries of macOS are on its computers alone.
+//! `cargo xtask macos`: the compiler checks the programs for macOS, with a standard library built
+//! for it. Nothing is linked or run: the libraries of macOS are on its computers alone.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -48,6 +48,19 @@ pub const COMMAND: [&str; 8] = [
     "-Cstrip=symbols",
 ];
 
+/// Arguments of cargo that build the command without graphics devices.
+pub const STATIC_COMMAND: [&str; 9] = [
+    "rustc",
+    "--package=guideway",
+    "--bin=guideway",
+    "--no-default-features",
+    "--features=cli",
+    "--profile=dist",
+    "--",
+    "-Copt-level=3",
+    "-Cstrip=symbols",
+];
+
 /// Arguments of cargo that build the window.
 pub const WINDOW: [&str; 6] = [
     "rustc",

@@ -22,12 +22,13 @@ mod tree;
 mod windows;
 
 pub use build::{
-    Binaries, COMMAND, PROFILE, UNWINDING_PROFILE, WINDOW, ZSTD_FLAGS, remapped_paths,
+    Binaries, COMMAND, PROFILE, STATIC_COMMAND, UNWINDING_PROFILE, WINDOW, ZSTD_FLAGS,
+    remapped_paths,
 };
 pub use dependencies::{Dependency, dependencies};
 pub use library::{Library, stage_library};
 pub use licenses::notices;
 pub use package::{Compression, Package, archive, checksums, deb};
 pub use sbom::sbom;
-pub use tree::{stage, stage_notices};
+pub use tree::{stage, stage_command, stage_notices};
 pub use windows::{WINDOWS, installer, stage_windows, zip};

@@ -28,16 +28,26 @@ const DESKTOP: [(&str, &str); 3] = [
 /// # Errors
 /// When a file cannot be written, or a program does not run.
 pub fn stage(top: &Path, binaries: &Binaries, notices: &str, prefix: &Path) -> Result<()> {
-    let bin = prefix.join("bin");
-    fs::create_dir_all(&bin)?;
-    for program in [&binaries.command, &binaries.window] {
-        let name = program.file_name().context("a program has a name")?;
-        fs::copy(program, bin.join(name))
-            .with_context(|| format!("{}: build it first", program.display()))?;
+    stage_command(top, &binaries.command, notices, prefix)?;
+    copy_program(&binaries.window, prefix)?;
+    for (file, name) in DESKTOP {
+        save(
+            &prefix.join("share").join(name),
+            &fs::read(top.join("packaging").join(file))?,
+        )?;
     }
+    Ok(())
+}
+
+/// Writes the files of an installation without the window; see [`stage`].
+///
+/// # Errors
+/// When a file cannot be written, or the command does not run.
+pub fn stage_command(top: &Path, command: &Path, notices: &str, prefix: &Path) -> Result<()> {
+    copy_program(command, prefix)?;
     let share = prefix.join("share");
-    let command = |args: &[&str]| {
-        let output = Command::new(&binaries.command).args(args).output()?;
+    let run = |args: &[&str]| {
+        let output = Command::new(command).args(args).output()?;
         if !output.status.success() {
             bail!(
                 "guideway {args:?}: {}",
@@ -48,20 +58,23 @@ pub fn stage(top: &Path, binaries: &Binaries, notices: &str, prefix: &Path) -> R
     };
     let man = share.join("man/man1");
     fs::create_dir_all(&man)?;
-    command(&["man", "--quiet", &man.to_string_lossy()])?;
+    run(&["man", "--quiet", &man.to_string_lossy()])?;
     for page in fs::read_dir(&man)? {
         gzip(&page?.path())?;
     }
     for (shell, name) in COMPLETIONS {
-        save(&share.join(name), &command(&["completions", shell])?)?;
-    }
-    for (file, name) in DESKTOP {
-        save(
-            &share.join(name),
-            &fs::read(top.join("packaging").join(file))?,
-        )?;
+        save(&share.join(name), &run(&["completions", shell])?)?;
     }
     stage_notices(top, notices, &share.join("doc/guideway"))
+}
+
+fn copy_program(program: &Path, prefix: &Path) -> Result<()> {
+    let bin = prefix.join("bin");
+    fs::create_dir_all(&bin)?;
+    let name = program.file_name().context("a program has a name")?;
+    fs::copy(program, bin.join(name))
+        .with_context(|| format!("{}: build it first", program.display()))?;
+    Ok(())
 }
 
 /// Writes licenses and changes to the folder of a package's documentation.

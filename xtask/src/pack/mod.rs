@@ -1,14 +1,16 @@
-//! `cargo xtask dist`: builds a release and packs it: the programs, and the C library.
+//! `cargo xtask dist`: builds a release and packs it: the programs, the command as one file for any
+//! Linux, and the C library.
 
 mod build;
+mod musl;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use xtask::dist::{
     Compression, Package, archive, checksums, deb, dependencies, notices, sbom, stage,
-    stage_library, stage_notices,
+    stage_command, stage_library, stage_notices,
 };
 
 use crate::step::heading;
@@ -18,6 +20,8 @@ pub(crate) fn run() -> Result<()> {
     let top = std::env::current_dir()?;
     heading("release build");
     let binaries = build::programs(&top)?;
+    let alone = build::IS_HOST.then(|| musl::static_command(&top));
+    let alone = alone.transpose()?;
     let library = build::library(&top)?;
     heading("packages");
     let dependencies = dependencies(&top, None)?;
@@ -32,18 +36,28 @@ pub(crate) fn run() -> Result<()> {
         fs::create_dir_all(fresh)?;
     }
     let notices = notices(&dependencies)?;
+    let archive_of = |name: &str, stage: &dyn Fn(&Path) -> Result<()>| {
+        let name = format!("{name}-{version}-{}-linux", std::env::consts::ARCH);
+        stage(&work.join(&name))?;
+        archive(&work, &name, &folder)
+    };
     // A `.deb` of the files below a folder, and an archive of them under another name.
     let pack = |package: &Package<'_>, name: &str, stage: &dyn Fn(&Path) -> Result<()>| {
         let root = work.join("root");
         stage(&root.join("usr"))?;
         let package = deb(package, &root, &folder, Compression::Xz)?;
-        let name = format!("{name}-{version}-{}-linux", std::env::consts::ARCH);
-        fs::rename(root.join("usr"), work.join(&name))?;
-        anyhow::Ok([package, archive(&work, &name, &folder)?])
+        let archive = archive_of(name, &|place| Ok(fs::rename(root.join("usr"), place)?))?;
+        anyhow::Ok([package, archive])
     };
     let programs = pack(&Package::programs(version, &binaries), "guideway", &|usr| {
         stage(&top, &binaries, &notices, usr)
     })?;
+    let alone = alone.map(|command| {
+        archive_of("guideway-static", &|prefix| {
+            stage_command(&top, &command, &notices, prefix)
+        })
+    });
+    let alone: Vec<PathBuf> = alone.into_iter().collect::<Result<_>>()?;
     let library = pack(
         &Package::library(version, &library),
         "libguideway",
@@ -57,7 +71,7 @@ pub(crate) fn run() -> Result<()> {
         &bill,
         serde_json::to_string_pretty(&sbom(version, &dependencies))? + "\n",
     )?;
-    let files = [&programs[..], &library, &[bill]].concat();
+    let files = [&programs[..], &alone, &library, &[bill]].concat();
     checksums(&folder, &files)?;
     for file in &files {
         println!(
