@@ -123,6 +123,8 @@ fn checks() -> Result<()> {
     workflows::lint()?;
     heading("packages of the crates");
     published::check()?;
+    heading("interfaces, compared with those of the last version");
+    semver::check_if_known()?;
     heading("licenses, sources and bans");
     let deny = CARGO_DENY.ensure()?;
     step::command(&deny)
