@@ -8,7 +8,8 @@ use guideway_document::Document;
 use guideway_spline::Affine;
 
 use super::state::App;
-use crate::canvas::CanvasPainter;
+use super::waiting::Input;
+use crate::canvas::{CanvasPainter, CanvasPlace};
 use crate::files::{Layer, LayerContext};
 use crate::language::{say, set_language};
 use crate::panels::{DrawingBar, MenuBar, SidePanel, StatusBar};
@@ -276,6 +277,21 @@ impl App {
                 self.run_postponed(input, place, ctx);
             }
         }
+    }
+
+    /// Runs an input that waited, in the view and with the pointer of its time.
+    fn run_postponed(&mut self, input: Input, place: CanvasPlace, ctx: &Context) {
+        if let Input::Command(command) = input
+            && command.moves_camera()
+        {
+            return self.perform_now(command, ctx);
+        }
+        let present = self.canvas.exchange_place(place);
+        match input {
+            Input::Command(command) => self.perform_now(command, ctx),
+            Input::Pointer(event) => self.point_now(event),
+        }
+        self.canvas.exchange_place(present);
     }
 
     /// Checks the active file again after a change.

@@ -1,11 +1,8 @@
 //! Keeps input that needs the document while an edit has it: commands and clicks act in the order
 //! in which they came, and where they were made, although the view may have moved since.
 
-use eframe::egui::Context;
-
 use super::state::App;
 use super::waiting::Input;
-use crate::canvas::CanvasPlace;
 use crate::command::Command;
 use crate::files::Layer;
 use crate::tools::PointerEvent;
@@ -44,21 +41,6 @@ impl App {
         self.waiting
             .push(layer.path(), Input::Pointer(event), place);
         true
-    }
-
-    /// Runs an input that waited, in the view and with the pointer of its time.
-    pub(super) fn run_postponed(&mut self, input: Input, place: CanvasPlace, ctx: &Context) {
-        if let Input::Command(command) = input
-            && command.moves_camera()
-        {
-            return self.perform_now(command, ctx);
-        }
-        let present = self.canvas.exchange_place(place);
-        match input {
-            Input::Command(command) => self.perform_now(command, ctx),
-            Input::Pointer(event) => self.point_now(event),
-        }
-        self.canvas.exchange_place(present);
     }
 
     /// Returns `true` if a command acts on what it reads in the document.

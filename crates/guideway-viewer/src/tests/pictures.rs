@@ -1,4 +1,4 @@
-//! What is painted above what, and exported pictures against the screen.
+//! The order of painting, and exported pictures against the screen.
 
 use std::thread;
 use std::time::Duration;
