@@ -26,6 +26,9 @@ use guideway_scene::cluster::DirtyClusters;
 
 /// Clusters whose boxes one task joins: some 20 microseconds of work.
 const TASK_CLUSTERS: usize = 1 << 10;
+/// Part of the clusters that may change before a frame draws everything again. Derived: the picture
+/// cache draws the parts of half of a picture, the line cache those of a quarter of the clusters.
+const MAX_REDRAWN_PART: usize = 2;
 /// Bytes of `SplitLists` of `shared/split_lists.wgsl`.
 const SPLIT_LISTS_BYTES: u64 = {
     let samples = TILE_PX * TILE_PX * SAMPLE_ROWS * Samples::Fine.per_row() / u32::BITS;
@@ -229,6 +232,10 @@ impl TargetState {
 
     /// Marks clusters with changed curves in all caches.
     pub(crate) fn mark_dirty(&mut self, dirty: &DirtyClusters, clusters: &[Cluster]) {
+        if dirty.len() as usize > clusters.len() / MAX_REDRAWN_PART {
+            (self.picture, self.cached_lines) = (None, None);
+            return;
+        }
         if self.picture.is_some() {
             let dirty: Vec<usize> = dirty.iter().collect();
             let area_of = |dirty: &[usize]| {

@@ -41,9 +41,9 @@ impl DrawRanks {
         }
     }
 
-    /// Returns `true` if all rows have ranks.
-    pub(crate) fn have_all(&self, rows: &[u32]) -> bool {
-        matches!(self, Self::Rows) || rows.iter().all(|&row| self.rank(row).is_some())
+    /// Returns `true` if the rows of all items have ranks.
+    pub(crate) fn have_all<I>(&self, items: &[I], row: impl Fn(&I) -> u32) -> bool {
+        matches!(self, Self::Rows) || items.iter().all(|item| self.rank(row(item)).is_some())
     }
 
     /// The row of a rank.

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use guideway_layout::rows_ascend;
+use guideway_layout::{OwnStyle, rows_ascend};
 use guideway_scene::{Edit, PathState, RenderError, Scene};
 use rayon::prelude::*;
 
@@ -30,8 +30,6 @@ const MAX_UNUSED_POINTS: usize = 1 << 16;
 const MIN_PACKED_PATHS: usize = 1 << 16;
 const PACKED_PART: usize = 4;
 
-/// Rows that one task collects.
-const TASK_ROWS: usize = 1 << 13;
 /// Paths per upload of points: some megabytes of usual paths.
 const BATCH_PATHS: usize = 1 << 17;
 
@@ -53,10 +51,10 @@ pub(crate) fn apply(
     let scene = Arc::make_mut(&mut uploaded.scene);
     let draws_all = scene.shown_count() == scene.row_count();
     scene.edit(edit).map_err(RenderError::Edit)?;
-    let rows = match changed_rows(edit, first_new, &uploaded.scene) {
-        Some(rows) => each_once(rows),
-        None => return Ok(SceneBufferEdit::Applied(EditEffect::default())),
-    };
+    if matches!(edit, Edit::Tables(_)) {
+        return Ok(SceneBufferEdit::Applied(EditEffect::default()));
+    }
+    let rows = rewritten_rows(edit, first_new, &uploaded.scene);
     // Buffers of which an earlier edit wrote a part cannot be patched.
     if std::mem::replace(&mut uploaded.is_incomplete, true) {
         return Ok(SceneBufferEdit::NeedsUpload);
@@ -70,7 +68,11 @@ pub(crate) fn apply(
         effect.changes_appearance =
             matches!(edit, Edit::Restyle(_)) || uploaded.facts.appearance() != before;
     }
-    let has_ranks = |buffers: &SceneBuffers| buffers.ranks.have_all(&rows);
+    let has_ranks = |buffers: &SceneBuffers| match edit {
+        Edit::Restyle(styles) => buffers.ranks.have_all(styles, |(row, _)| *row),
+        Edit::SetStates(states) => buffers.ranks.have_all(states, |(row, _)| *row),
+        _ => buffers.ranks.have_all(&rows, |row| *row),
+    };
     if !uploaded.buffers.as_ref().is_some_and(has_ranks) {
         return Ok(SceneBufferEdit::NeedsUpload);
     }
@@ -84,16 +86,18 @@ pub(crate) fn apply(
         )?;
     }
     let is_written = match edit {
-        Edit::Restyle(_) => {
-            write_styles(uploaded, device, &rows, &mut effect)?;
+        Edit::Restyle(styles) => {
+            let items = (&styles[..], &|(row, _): &(u32, OwnStyle)| *row);
+            write_styles(uploaded, device, items, &mut effect)?;
             true
         }
-        Edit::SetStates(_) => {
-            let missing = write_states(uploaded, device, &rows, &mut effect)?;
+        Edit::SetStates(states) => {
+            let missing = write_states(uploaded, device, states, &mut effect)?;
+            let missing = each_once(missing.into());
             missing.is_empty() || write_curves(uploaded, device, &missing, &mut effect)?
         }
         Edit::Insert(_) => {
-            write_styles(uploaded, device, &rows, &mut effect)?;
+            write_styles(uploaded, device, (&rows, &|row| *row), &mut effect)?;
             write_curves(uploaded, device, &rows, &mut effect)?
         }
         _ => write_curves(uploaded, device, &rows, &mut effect)?,
@@ -105,15 +109,15 @@ pub(crate) fn apply(
     Ok(SceneBufferEdit::Applied(effect))
 }
 
-/// The rows whose picture an edit changes, new ones included; `None` of an edit that none shows.
-fn changed_rows<'a>(edit: &'a Edit, first_new: u32, scene: &Scene) -> Option<Cow<'a, [u32]>> {
-    Some(match edit {
-        Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => Cow::Borrowed(&**paths),
-        Edit::Restyle(styles) => rows_of(styles, |(row, _)| *row).into(),
-        Edit::SetStates(states) => rows_of(states, |(row, _)| *row).into(),
+/// The rows whose curves an edit changes, new ones included. States and styles need no list.
+fn rewritten_rows<'a>(edit: &'a Edit, first_new: u32, scene: &Scene) -> Cow<'a, [u32]> {
+    match edit {
+        Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => {
+            each_once(Cow::Borrowed(&**paths))
+        }
         Edit::Insert(_) => (first_new..scene.row_count() as u32).collect(),
-        Edit::Tables(_) => return None,
-    })
+        Edit::Restyle(_) | Edit::SetStates(_) | Edit::Tables(_) => Cow::default(),
+    }
 }
 
 /// Rows in ascending order, each once: an edit may name a row twice.
@@ -125,17 +129,6 @@ fn each_once(rows: Cow<'_, [u32]>) -> Cow<'_, [u32]> {
     rows.par_sort_unstable();
     rows.dedup();
     rows.into()
-}
-
-/// The rows of items, by all threads if there are many.
-fn rows_of<I: Sync>(items: &[I], row: impl Fn(&I) -> u32 + Sync + Send) -> Vec<u32> {
-    match items.len() {
-        0..=TASK_ROWS => items.iter().map(row).collect(),
-        _ => {
-            let tasks = items.par_iter().with_min_len(TASK_ROWS);
-            tasks.map(row).collect()
-        }
-    }
 }
 
 /// Makes the styles on the device serve all paths: a single style while paths look alike,
@@ -177,11 +170,11 @@ fn complete_styles(
     Ok(())
 }
 
-/// Writes colors and widths of rows.
-fn write_styles(
+/// Writes colors and widths of the rows of items.
+fn write_styles<I: Sync>(
     uploaded: &mut UploadedScene,
     device: &mut DeviceContext,
-    rows: &[u32],
+    items: (&[I], &(impl Fn(&I) -> u32 + Sync)),
     effect: &mut EditEffect,
 ) -> Result<(), RenderError> {
     let scene = &uploaded.scene;
@@ -191,7 +184,7 @@ fn write_styles(
     let path_strokes = uploaded
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
-    let changes = StyleChanges::of(scene, buffers, path_strokes, rows);
+    let changes = StyleChanges::of(scene, buffers, path_strokes, items);
     let is_complete = buffers.style_count as usize == buffers.ranks.count(scene);
     if is_complete && !changes.styles.is_empty() {
         effect.moved_bytes += changes.bytes();

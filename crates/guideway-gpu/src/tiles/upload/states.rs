@@ -27,12 +27,18 @@ struct StateChanges {
 }
 
 impl StateChanges {
-    fn of(scene: &Scene, buffers: &SceneBuffers, strokes: &PathStrokes, rows: &[u32]) -> Self {
+    fn of(
+        scene: &Scene,
+        buffers: &SceneBuffers,
+        strokes: &PathStrokes,
+        states: &[(u32, PathState)],
+    ) -> Self {
         let mut changes = Self {
-            entries: Vec::with_capacity(rows.len()),
+            entries: Vec::with_capacity(states.len()),
             ..Self::default()
         };
-        for &row in rows {
+        // The scene knows the last state of a row that occurs twice.
+        for &(row, _) in states {
             let is_hidden = scene.state(row) != PathState::Shown;
             let strokes = strokes.strokes(row);
             if strokes.is_empty() && !is_hidden {
@@ -53,11 +59,12 @@ impl StateChanges {
     }
 }
 
-/// Shows and hides the strokes of rows. Returns the shown rows that have none.
+/// Shows and hides the strokes of rows after the scene has taken their states. Returns the shown
+/// rows that have none.
 pub(super) fn write_states(
     uploaded: &mut UploadedScene,
     device: &mut DeviceContext,
-    rows: &[u32],
+    states: &[(u32, PathState)],
     effect: &mut EditEffect,
 ) -> Result<Vec<u32>, RenderError> {
     let scene = &uploaded.scene;
@@ -68,10 +75,10 @@ pub(super) fn write_states(
     let path_strokes = uploaded
         .path_strokes
         .get_or_insert_with(|| PathStrokes::of(buffers, scene.row_count()));
-    let change = |rows: &[u32]| StateChanges::of(scene, buffers, path_strokes, rows);
-    let changes: Vec<StateChanges> = match rows.len() {
-        0..=TASK_PATHS => vec![change(rows)],
-        _ => rows.par_chunks(TASK_PATHS).map(change).collect(),
+    let change = |states: &[_]| StateChanges::of(scene, buffers, path_strokes, states);
+    let changes: Vec<StateChanges> = match states.len() {
+        0..=TASK_PATHS => vec![change(states)],
+        _ => states.par_chunks(TASK_PATHS).map(change).collect(),
     };
     let (mut entries, mut missing) = (Vec::new(), Vec::new());
     for changes in changes {

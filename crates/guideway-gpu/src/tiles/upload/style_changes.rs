@@ -32,17 +32,20 @@ pub(super) struct StyleChanges {
 }
 
 impl StyleChanges {
-    /// The styles of changed rows.
-    pub(super) fn of(
+    /// The styles of the rows of items. A row may occur twice.
+    pub(super) fn of<I: Sync>(
         scene: &Scene,
         buffers: &SceneBuffers,
         path_strokes: &PathStrokes,
-        rows: &[u32],
+        (items, row): (&[I], &(impl Fn(&I) -> u32 + Sync)),
     ) -> Self {
-        let change = |rows: &[u32]| TaskChanges::of(scene, buffers, path_strokes, rows);
-        let tasks: Vec<TaskChanges> = match rows.len() {
-            0..=TASK_PATHS => vec![change(rows)],
-            _ => rows.par_chunks(TASK_PATHS).map(change).collect(),
+        let change = |items: &[I]| {
+            let rows = items.iter().map(row);
+            TaskChanges::of(scene, buffers, path_strokes, rows)
+        };
+        let tasks: Vec<TaskChanges> = match items.len() {
+            0..=TASK_PATHS => vec![change(items)],
+            _ => items.par_chunks(TASK_PATHS).map(change).collect(),
         };
         let mut changes = Self::default();
         let first = tasks.first().and_then(|task| task.styles.first()).copied();
@@ -82,7 +85,12 @@ struct TaskChanges {
 }
 
 impl TaskChanges {
-    fn of(scene: &Scene, buffers: &SceneBuffers, strokes: &PathStrokes, rows: &[u32]) -> Self {
+    fn of(
+        scene: &Scene,
+        buffers: &SceneBuffers,
+        strokes: &PathStrokes,
+        rows: impl ExactSizeIterator<Item = u32>,
+    ) -> Self {
         let mut changes = Self {
             ranks: Vec::with_capacity(rows.len()),
             picks: Vec::with_capacity(rows.len()),
@@ -90,7 +98,7 @@ impl TaskChanges {
         };
         let mut known = HashMap::new();
         let mut last = None;
-        for &row in rows {
+        for row in rows {
             let Some(rank) = buffers.ranks.rank(row) else {
                 continue;
             };
