@@ -135,6 +135,41 @@ fn far_views_draw_rounded_points_and_near_views_exact_ones() {
     }
 }
 
+/// Dense paths, and paths that lead there from a sparse area, which comes first along the Hilbert
+/// curve. The clusters of the sparse area have exact points.
+fn from_sparse_to_dense() -> Layout {
+    let mut layout = layout(3000, 1.0);
+    for row in 0..40 {
+        let from = Point::new(-2000.0, 40.0 * f64::from(row));
+        let control: Vec<_> = (0..200)
+            .map(|i| {
+                let share = f64::from(i) / 199.0;
+                let to = Point::new(49.0 + 0.05 * f64::from(row), 30.0);
+                let wave = Point::new(0.0, 0.3 * (0.3 * f64::from(i)).sin());
+                to + (from - to) * share.powi(6) + wave
+            })
+            .collect();
+        push(&mut layout, |runs| runs.push(&control));
+    }
+    layout
+}
+
+#[test]
+fn near_views_find_the_parts_of_paths_with_rounded_and_exact_clusters() {
+    let Some(tiles) = tiles() else { return };
+    let scene = scene(from_sparse_to_dense());
+    let (mut rounded, mut exact) = (prepared(&tiles, &scene), exact(&tiles, &scene));
+    let all = rounded.scene.buffers.as_ref().unwrap().cluster_list.len();
+    assert!((10..all).contains(&rounded_clusters(&rounded)));
+    let style = Style::default();
+    let (drawn, expected) = (
+        picture(&mut rounded, &near(), &style),
+        picture(&mut exact, &near(), &style),
+    );
+    assert!(!exact_clusters(&rounded).is_empty());
+    assert_same(&drawn, &expected);
+}
+
 #[test]
 fn earlier_views_do_not_change_the_picture() {
     let Some(tiles) = tiles() else { return };

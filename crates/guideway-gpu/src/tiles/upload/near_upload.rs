@@ -100,9 +100,8 @@ fn part_of(
     if stroke.is_whole_path() {
         return parts().pop();
     }
-    // The strokes of a path lie in the order of its sorted parts.
     let strokes = scene.path_strokes.as_ref()?.strokes(row);
-    let number = strokes.binary_search(&index);
+    let number = strokes.iter().position(|stroke| *stroke == index)?;
     let parts = parts_of_paths.entry(row).or_insert_with(parts);
-    parts.get(number.ok()?).copied()
+    parts.get(number).copied()
 }

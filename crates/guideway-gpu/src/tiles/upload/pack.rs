@@ -37,6 +37,8 @@ pub(crate) struct Packed {
     pub(crate) exact_m: Pieces<[f32; 2]>,
     pub(crate) strokes: Pieces<Stroke>,
     pub(crate) clusters: Vec<Cluster>,
+    /// Place of each cluster in the order of the sorted parts.
+    pub(crate) places: Vec<u32>,
 }
 
 /// The result of a task; its clusters index its own points and strokes.
@@ -46,6 +48,7 @@ struct PackedTask {
     exact_m: Vec<[f32; 2]>,
     strokes: Vec<Stroke>,
     clusters: Vec<Cluster>,
+    places: Vec<u32>,
 }
 
 impl Packing {
@@ -70,7 +73,7 @@ impl Packing {
     }
 
     /// Sorts parts along the Hilbert curve, by the midpoint of their ends. The strokes of a path
-    /// lie on the device in this order, so the order of two parts must not depend on the others.
+    /// are found in this order, so the order of two parts must not depend on the others.
     pub(crate) fn sort(&self, layout: &Layout, parts: &mut [PathPart]) {
         let place = |part: &PathPart| {
             let mut points = part.points(layout);
@@ -112,8 +115,11 @@ impl Packed {
 
     /// Packs parts whose neighbors in the world are neighbors already. All threads share the work.
     pub(crate) fn of_sorted(scene: &Scene, parts: &[PathPart], packing: Packing) -> Self {
-        let tasks = parts.par_chunks(TASK_PARTS);
-        let tasks = tasks.map(|parts| PackedTask::of(scene, parts, packing));
+        let tasks = parts.par_chunks(TASK_PARTS).enumerate();
+        let tasks = tasks.map(|(index, parts)| {
+            let first_place = index * (TASK_PARTS / CLUSTER_STROKES as usize);
+            PackedTask::of(scene, parts, first_place as u32, packing)
+        });
         let (mut packed, mut exact) = (Vec::new(), Vec::new());
         for [rounded, of_exact] in tasks.collect::<Vec<_>>() {
             packed.push(rounded);
@@ -128,7 +134,9 @@ impl Packed {
         let (mut first_stroke, mut first_points) = (0, [0, 0]);
         let mut clusters = Vec::with_capacity(tasks.iter().map(|task| task.clusters.len()).sum());
         let (mut rounded, mut exact_m, mut strokes) = (Vec::new(), Vec::new(), Vec::new());
+        let mut places = Vec::with_capacity(clusters.capacity());
         for task in tasks {
+            places.extend(task.places);
             clusters.extend(task.clusters.iter().map(|cluster| Cluster {
                 first_stroke: cluster.first_stroke + first_stroke,
                 first_point: cluster.first_point + first_points[cluster.format() as usize],
@@ -146,29 +154,33 @@ impl Packed {
             exact_m: Pieces::new(exact_m.into_iter()),
             strokes: Pieces::new(strokes.into_iter()),
             clusters,
+            places,
         }
     }
 }
 
 impl PackedTask {
-    /// Packs parts: clusters of rounded and of exact points.
-    fn of(scene: &Scene, parts: &[PathPart], packing: Packing) -> [Self; 2] {
+    /// Packs parts: clusters of rounded and of exact points. The first one has a place among those
+    /// of all tasks.
+    fn of(scene: &Scene, parts: &[PathPart], first_place: u32, packing: Packing) -> [Self; 2] {
         let (mut packed, mut exact) = (Self::default(), Self::default());
         // Paths of a cluster lie anywhere in memory.
         let geometry = scene.layout().paths.geometry();
         let prefetch = |part: &PathPart| geometry.prefetch(part.path as usize);
         let mut ahead = parts.chunks(CLUSTER_STROKES as usize).skip(1);
-        for parts in parts.chunks(CLUSTER_STROKES as usize) {
+        for (parts, place) in parts.chunks(CLUSTER_STROKES as usize).zip(first_place..) {
             ahead.next().into_iter().flatten().for_each(prefetch);
             let points = parts.iter().flat_map(|part| part.points(scene.layout()));
             let Some(bounds) = Bounds::of_points(points) else {
                 continue;
             };
             let cluster = Cluster::within(bounds, packing.step_m(bounds.size()));
-            match cluster.format() {
-                PointFormat::Rounded => packed.add(scene, cluster, parts),
-                PointFormat::Exact => exact.add(scene, cluster, parts),
-            }
+            let of_format = match cluster.format() {
+                PointFormat::Rounded => &mut packed,
+                PointFormat::Exact => &mut exact,
+            };
+            of_format.add(scene, cluster, parts);
+            of_format.places.push(place);
         }
         [packed, exact]
     }

@@ -18,7 +18,7 @@ const TASK_STROKES: usize = 1 << 14;
 pub(crate) struct PathStrokes {
     /// The stroke of each row with exactly one.
     single: Vec<u32>,
-    /// Strokes of rows with several.
+    /// Strokes of rows with several, in the order of the sorted parts.
     several: HashMap<u32, Vec<u32>>,
     /// Box of each cluster when it was packed.
     original_boxes: Vec<[[f32; 2]; 2]>,
@@ -46,6 +46,9 @@ impl PathStrokes {
         strokes.single = single.into_iter().map(AtomicU32::into_inner).collect();
         let parts = (0..).zip(&buffers.stroke_list);
         strokes.add(buffers, parts.filter(|(_, stroke)| !stroke.is_whole_path()));
+        let place = |stroke: &u32| buffers.place(cluster_of(buffers, *stroke));
+        let several = strokes.several.values_mut();
+        several.for_each(|strokes| strokes.sort_by_key(place));
         strokes.add_boxes(buffers, 0);
         strokes
     }
@@ -87,7 +90,7 @@ impl PathStrokes {
         self.original_boxes.extend(boxes);
     }
 
-    /// Strokes of a row.
+    /// Strokes of a row, in the order of its sorted parts.
     pub(crate) fn strokes(&self, row: u32) -> &[u32] {
         match self.several.get(&row) {
             Some(strokes) => strokes,

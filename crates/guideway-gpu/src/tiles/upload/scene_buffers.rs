@@ -48,6 +48,8 @@ pub(crate) struct SceneBuffers {
     pub(crate) counters: DeviceBuffer,
     pub(crate) stroke_list: Vec<Stroke>,
     pub(crate) cluster_list: Vec<Cluster>,
+    /// Place of each cluster in the order of the sorted parts, but for those of later edits.
+    places: Vec<u32>,
     pub(crate) hidden: HiddenStrokes,
     /// Number of shown strokes in each cluster that are whole paths.
     pub(crate) whole_paths: Vec<AtomicU32>,
@@ -98,6 +100,7 @@ impl SceneBuffers {
             counters: counters(memory, packed.clusters.len() + spare_clusters)?,
             stroke_list: packed.strokes.joined(spare_strokes),
             cluster_list: packed.clusters,
+            places: packed.places,
             hidden: HiddenStrokes::default(),
             whole_paths: Vec::new(),
             style_count: style_list.len() as u32,
@@ -206,6 +209,13 @@ impl SceneBuffers {
         });
         self.cluster_list.extend(shifted);
         Ok(())
+    }
+
+    /// The place of a cluster in the order of the sorted parts, in which those of exact points are
+    /// between those of rounded ones. Clusters of later edits come last.
+    pub(crate) fn place(&self, cluster: usize) -> u32 {
+        let place = self.places.get(cluster);
+        place.copied().unwrap_or(cluster as u32)
     }
 
     /// All point buffers, the exact points of near clusters last.
