@@ -54,6 +54,7 @@ pub(crate) fn run() -> Result<()> {
     })?;
     let alone = alone.map(|command| {
         archive_of("guideway-static", &|prefix| {
+            let notices = format!("{notices}\nmusl\n\n{}", musl::license()?);
             stage_command(&top, &command, &notices, prefix)
         })
     });

@@ -53,6 +53,12 @@ pub(super) fn static_command(top: &Path) -> Result<PathBuf> {
     Ok(built)
 }
 
+/// The license of musl, which is a part of the file.
+pub(super) fn license() -> Result<String> {
+    let file = "/usr/share/doc/musl-dev/copyright";
+    fs::read_to_string(file).with_context(|| format!("cannot read {file}"))
+}
+
 /// Writes `libunwind.a`, the library of the C compiler with [`NO_TABLES`].
 fn write_unwinder(folder: &Path) -> Result<()> {
     fs::create_dir_all(folder)?;
