@@ -105,4 +105,44 @@ fn action_reports_findings_and_draws_what_changed() {
         "{}",
         stdout(&drawn)
     );
+    assert_comments(&repository);
+}
+
+/// Comments twice, by a program in the place of the forge's: the second time changes the comment of
+/// the first.
+fn assert_comments(repository: &Repository) {
+    let program = "#!/bin/sh\n\
+        case \"$*\" in\n\
+        *--paginate*) cat id.txt 2> /dev/null ;;\n\
+        *) echo \"$*\" >> calls.txt; echo 7 > id.txt; exit \"${REFUSED:-0}\" ;;\n\
+        esac\n";
+    let comment = "mkdir -p bin && printf '%s' \"$PROGRAM\" > bin/gh && chmod +x bin/gh\n\
+                   PATH=\"$PWD/bin:$PATH\"\n";
+    let comment = comment.to_owned() + &script("Comment on the differences");
+    let env = [
+        ("PROGRAM", program),
+        ("GITHUB_REPOSITORY", "o/r"),
+        ("NUMBER", "3"),
+        ("PICTURES", "https://example.org/7"),
+    ];
+    for _ in 0..2 {
+        let said = repository.bash(&comment, &env);
+        assert!(said.status.success(), "{}", stderr(&said));
+        assert!(!stdout(&said).contains("::warning::"));
+    }
+    let body = "-F body=@guideway-comment.md";
+    let calls = format!(
+        "api --silent --method POST repos/o/r/issues/3/comments {body}\n\
+         api --silent --method PATCH repos/o/r/issues/comments/7 {body}\n"
+    );
+    assert_eq!(repository.text("calls.txt"), calls);
+    let text = repository.text("guideway-comment.md");
+    assert!(text.starts_with("<!-- guideway -->\n[Pictures"), "{text}");
+    assert!(
+        text.contains("https://example.org/7") && text.contains("maxSpeed"),
+        "{text}"
+    );
+
+    let refused = repository.bash(&comment, &[&env[..], &[("REFUSED", "1")]].concat());
+    assert!(refused.status.success() && stdout(&refused).contains("::warning::"));
 }
