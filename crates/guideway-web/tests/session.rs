@@ -226,9 +226,9 @@ fn element_is_hit_described_and_found() {
     let samples = parsed(&session.sample(row, 3.0).unwrap());
     let at = |y: f64, along_m: f64| {
         let up = std::f64::consts::FRAC_PI_2;
-        json!({ "alongM": along_m, "x": 36.0, "y": y, "headingRad": -up })
+        json!({ "alongM": along_m, "x": 36.0, "y": y, "headingRad": up })
     };
-    assert_eq!(samples, json!([at(6.0, 0.0), at(4.0, 2.0), at(2.0, 4.0)]));
+    assert_eq!(samples, json!([at(2.0, 0.0), at(4.0, 2.0), at(6.0, 4.0)]));
     for (row, spacing_m) in [(9999, 1.0), (row, 0.0), (row, f64::NAN), (row, 1e-9)] {
         assert!(session.sample(row, spacing_m).is_err(), "{row} {spacing_m}");
     }

@@ -214,8 +214,7 @@ impl SceneBuffers {
     /// The place of a cluster in the order of the sorted parts, in which those of exact points are
     /// between those of rounded ones. Clusters of later edits come last.
     pub(crate) fn place(&self, cluster: usize) -> u32 {
-        let place = self.places.get(cluster);
-        place.copied().unwrap_or(cluster as u32)
+        self.places.get(cluster).copied().unwrap_or(cluster as u32)
     }
 
     /// All point buffers, the exact points of near clusters last.
@@ -286,13 +285,8 @@ impl SceneBuffers {
         )?;
         let bytes = clusters * size_of::<Cluster>();
         grow_to(gpu, memory, "the clusters", &mut self.clusters, bytes)?;
-        grow_to(
-            gpu,
-            memory,
-            COUNTERS,
-            &mut self.counters,
-            counters_bytes(clusters),
-        )?;
+        let bytes = counters_bytes(clusters);
+        grow_to(gpu, memory, COUNTERS, &mut self.counters, bytes)?;
         let strokes = first_stroke as u32..strokes as u32;
         let strokes: Vec<Stroke> = strokes.map(|stroke| self.flagged_stroke(stroke)).collect();
         let clusters = &self.cluster_list[first_cluster..];
