@@ -36,12 +36,15 @@ impl Watch {
 
     /// The first tool that this system lacks.
     fn missing(self, compiler: &'static str) -> Option<&'static str> {
-        let tools: &[&str] = match self {
-            Self::Sanitizers => &["pkg-config", compiler],
-            Self::Valgrind => &["pkg-config", compiler, "valgrind"],
+        let own = match self {
+            Self::Sanitizers => None,
+            Self::Valgrind => Some("valgrind"),
         };
         let is_missing = |tool: &&str| Command::new(tool).arg("--version").output().is_err();
-        tools.iter().copied().find(is_missing)
+        ["pkg-config", compiler]
+            .into_iter()
+            .chain(own)
+            .find(is_missing)
     }
 
     fn flags(self) -> &'static [&'static str] {
@@ -105,14 +108,13 @@ fn run(
         .output()
         .unwrap();
     assert!(built.status.success(), "{built:?}");
-    let mut command = watch.start(&program);
-    command.args(args).current_dir(folder);
-    Some(
-        command
-            .env("LD_LIBRARY_PATH", prefix.join("lib"))
-            .output()
-            .unwrap(),
-    )
+    let ran = watch
+        .start(&program)
+        .args(args)
+        .current_dir(folder)
+        .env("LD_LIBRARY_PATH", prefix.join("lib"))
+        .output();
+    Some(ran.unwrap())
 }
 
 /// Runs an example under each watch, in a folder of its own, and passes folder and output on.

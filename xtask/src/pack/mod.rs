@@ -5,7 +5,7 @@ mod build;
 mod musl;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result};
 use xtask::dist::{
@@ -58,7 +58,7 @@ pub(crate) fn run() -> Result<()> {
             stage_command(&top, &command, &notices, prefix)
         })
     });
-    let alone: Vec<PathBuf> = alone.into_iter().collect::<Result<_>>()?;
+    let alone = alone.transpose()?;
     let library = pack(
         &Package::library(version, &library),
         "libguideway",
@@ -72,7 +72,7 @@ pub(crate) fn run() -> Result<()> {
         &bill,
         serde_json::to_string_pretty(&sbom(version, &dependencies))? + "\n",
     )?;
-    let files = [&programs[..], &alone, &library, &[bill]].concat();
+    let files = [&programs[..], alone.as_slice(), &library, &[bill]].concat();
     checksums(&folder, &files)?;
     for file in &files {
         println!(

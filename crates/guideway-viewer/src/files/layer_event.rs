@@ -12,7 +12,7 @@ pub(crate) enum LayerEvent {
     Reached(LoadStage),
     /// The fallback method replaced the selected one; the reason as a sentence.
     FellBack(String),
-    /// So many paths cover its first picture that their density says more.
+    /// Its first picture is a crowd of paths, whose density says more than their colors.
     Crowded,
     /// A notice for the user.
     Notice(String),

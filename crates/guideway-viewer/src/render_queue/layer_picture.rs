@@ -63,7 +63,7 @@ pub(crate) enum PictureEvent {
     FellBack(String),
     /// The last request has no picture; the reason.
     Failed(String),
-    /// So many paths cover the first picture that their density says more.
+    /// The first picture is a crowd of paths, whose density says more than their colors.
     Crowded,
 }
 

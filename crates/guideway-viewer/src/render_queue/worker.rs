@@ -31,7 +31,7 @@ pub(crate) enum RenderEvent {
     FellBack(String),
     /// The request has no picture; the reason.
     Failed(String),
-    /// So many paths cover the first picture of all that their density says more.
+    /// The first picture of all paths is a crowd, whose density says more than their colors.
     Crowded,
 }
 
