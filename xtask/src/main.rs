@@ -132,6 +132,9 @@ fn checks() -> Result<()> {
         .run()?;
     heading("advisories and yanked versions of every lock file");
     for manifest in WORKSPACES {
+        // What a changed dependency leaves behind in another workspace.
+        let locked = ["update", "--quiet", "--workspace", "--locked"];
+        cargo(&locked).args(["--manifest-path", manifest]).run()?;
         check_advisories(&deny, manifest)?;
     }
     heading("documentation");

@@ -84,7 +84,7 @@ fn end() -> ! {
 #[expect(unsafe_code, reason = "the safe functions lock, and may allocate")]
 fn print(text: &[u8]) {
     // SAFETY: the text is valid for its length. Nobody can be told that the output is closed.
-    let _ = unsafe { nix::libc::write(1, text.as_ptr().cast(), text.len()) };
+    let _ = unsafe { libc::write(1, text.as_ptr().cast(), text.len()) };
 }
 
 #[cfg(not(unix))]
@@ -97,7 +97,7 @@ fn print(text: &[u8]) {
 #[expect(unsafe_code, reason = "there is no safe function for it")]
 fn exit() -> ! {
     // SAFETY: the call takes a number and does not return.
-    unsafe { nix::libc::_exit(ERROR) }
+    unsafe { libc::_exit(ERROR) }
 }
 
 #[cfg(not(unix))]

@@ -44,9 +44,13 @@ impl Disk for OsDisk {
         file.sync_all()
     }
 
+    #[cfg_attr(unix, expect(unsafe_code, reason = "no safe function tells the error"))]
     fn close(&self, file: File) -> io::Result<()> {
         #[cfg(unix)]
-        nix::unistd::close(file)?;
+        // SAFETY: the descriptor is open, and nothing owns it any more.
+        unsafe {
+            rustix::io::try_close(std::os::fd::IntoRawFd::into_raw_fd(file))?;
+        }
         #[cfg(not(unix))]
         drop(file);
         Ok(())

@@ -2,7 +2,7 @@
 
 /// Vector instructions to use. All levels give the same bits: tests force each and compare. Builds
 /// without tests compile only the widest, because each level doubles the compile time of the
-/// rasterizer.
+/// rasterizer; builds for debugging, which use no vectors, only the baseline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum SimdLevel {
     /// The widest that the processor has.
@@ -22,10 +22,10 @@ pub(crate) enum SimdLevel {
 macro_rules! simd_dispatch {
     ($vis:vis fn $name:ident($($arg:ident: $type:ty),+) by $work:ident) => {
         $vis fn $name(simd: $crate::cpu::ground::simd::SimdLevel, $($arg: $type),+) {
-            #[multiversion::multiversion(targets(
+            #[cfg_attr(any(test, not(debug_assertions)), multiversion::multiversion(targets(
                 "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
                 "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
-            ))]
+            )))]
             fn widest($($arg: $type),+) {
                 $work($($arg),+);
             }
