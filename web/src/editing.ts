@@ -17,6 +17,19 @@ export const remove = (of: Details): EditStep => {
   return { do: "delete", ...named(of), ...(isNode ? { with_paths: true } : {}) };
 };
 
+/** Steps of an element by a button, with their words. */
+export function actions(of: Details): [string, EditStep][] {
+  if (of.kind === "node") return [["Add a station", { do: "create-station", nodes: [of.id] }]];
+  if (of.kind !== "path") return [];
+  const isOneWay = of.cells.some(({ name, value }) => name === "direction" && value === "one-way");
+  return [
+    ["Reverse", { do: "reverse", ...named(of) }],
+    isOneWay
+      ? ["Make two-way", { do: "two-way", ...named(of) }]
+      : ["Make one-way", { do: "one-way", ...named(of) }],
+  ];
+}
+
 /** The step that gives a property what was typed; none removes it. */
 export function set(of: Details, cell: Cell, typed: string): EditStep {
   const text = typed.trim();

@@ -1,7 +1,8 @@
 // The page: opens files and the shared layout, joins map, panels and engine.
 
-import type { Details, Finding, Info, Picture, Placement, Point } from "./answers.js";
-import type { EditStep, Reference, Shared } from "./answers.js";
+import type { Details, Finding, Info, Picture, Placement } from "./answers.js";
+import type { EditStep, EditedStep, Reference, Shared } from "./answers.js";
+import { Drawing, created } from "./drawing.js";
 import { BrokenEngine, Engine, GuidewayError, wordsOf } from "./engine.js";
 import { unpackedText } from "./gzip.js";
 import { GuidewayMap, paintElement } from "./map.js";
@@ -9,6 +10,7 @@ import { Panels, byId, cells, item } from "./panels.js";
 import { connectPlan } from "./plan.js";
 import { Pointer } from "./pointer.js";
 import { count, language, meters, t } from "./text.js";
+import { TOOLS, Tools } from "./tools.js";
 
 /** Largest file that fits into the memory of a page beside its layout. */
 const MAX_BYTES = 1_500_000_000;
@@ -26,11 +28,11 @@ const engine = new Engine(() => packedEngine, fonts);
 const map = new GuidewayMap(byId<HTMLCanvasElement>("map"));
 const panels = new Panels();
 const pointer = new Pointer((...call) => engine.call(...call));
+const tools = new Tools(map, pointer, new Drawing((...call) => engine.call(...call)));
 
 let info: Info | undefined;
 /** The layout whose length is known or being added up. */
 let summed: Info | undefined;
-let measured: Point[] | undefined;
 
 /** A file that is in the page. */
 function packed(id: string): string {
@@ -59,7 +61,7 @@ function close(): void {
 
 function forget(): void {
   pointer.forget();
-  measured = undefined;
+  tools.takeUp(undefined);
   // They name elements and areas of the layout that was open.
   delete map.look.route;
   delete map.look.envelope;
@@ -147,6 +149,8 @@ async function sumLength(of: Info): Promise<void> {
   panels.showLength(lengthM);
 }
 
+tools.onstatus = (text) => panels.status(text);
+tools.info = () => info;
 map.draw = (look) => {
   if (!info) return Promise.reject(new GuidewayError("usage", "", ""));
   return engine.call<Picture>("render", [look]);
@@ -163,7 +167,9 @@ map.onreport = (report) => {
     summed = info;
     sumLength(info).catch(map.onfail);
   }
-  panels.status(`${count(report.drawn)} / ${count(report.total)} ${t("paths")}`);
+  const drawn = `${count(report.drawn)} / ${count(report.total)} ${t("paths")}`;
+  // What to do next stays there.
+  if (!tools.tool) panels.status(drawn);
 };
 map.onfail = (error) => {
   if (info) notice(error);
@@ -174,18 +180,12 @@ map.overlay = (pen, at) => {
   for (const element of [pointer.hovered, pointer.selected]) {
     if (element) paintElement(pen, at, element, accent, map.scale);
   }
-  if (!measured?.length) return;
-  const outline = [measured];
-  const line = { kind: "path", row: 0, id: "", bounds: null, cells: [], outline } as Details;
-  paintElement(pen, at, line, "#d55e00", map.scale);
+  tools.paint(pen, at, accent);
 };
 
 map.onpoint = async (x, y, isClick) => {
   if (!info) return;
-  if (measured) {
-    if (isClick) addPoint(map.world([x, y]));
-    return;
-  }
+  if (tools.point([x, y], isClick)) return;
   // What is being typed stays where it is.
   if (!isClick && byId("element").querySelector("input")) return;
   try {
@@ -207,24 +207,6 @@ async function flyTo(of: Reference): Promise<void> {
   } catch (error) {
     notice(error);
   }
-}
-
-function addPoint(point: Point): void {
-  measured!.push(point);
-  let length = 0;
-  for (let i = 1; i < measured!.length; i++) {
-    const [a, b] = [measured![i - 1]!, measured![i]!];
-    length += Math.hypot(b[0] - a[0], b[1] - a[1]);
-  }
-  panels.status(`${meters(length)} (${point.map((value) => value.toFixed(2)).join(", ")})`);
-  map.paint();
-}
-
-function setMeasuring(isOn: boolean): void {
-  measured = isOn ? [] : undefined;
-  byId("measure").setAttribute("aria-pressed", String(isOn));
-  panels.status(isOn ? t("Click points to measure; Escape ends.") : "");
-  map.paint();
 }
 
 async function find(text: string): Promise<void> {
@@ -278,10 +260,14 @@ async function showEnvelope(text: string): Promise<void> {
   void map.refresh();
 }
 
-async function edit(step: EditStep): Promise<void> {
-  const of = pointer.hovered ?? pointer.selected;
-  const edited = await busy(t("editing"), () => engine.call<{ info: Info }>("edit", [[step]]));
-  if (edited) await showEdited(edited.info, step.do === "delete" ? undefined : of);
+async function edit(steps: EditStep[], of = pointer.hovered ?? pointer.selected): Promise<void> {
+  const last = steps.at(-1)!;
+  const edited = await busy(t("editing"), async () => {
+    type Edited = { info: Info; steps: EditedStep[] };
+    const { info, steps: touched } = await engine.call<Edited>("edit", [steps]);
+    return { info, made: await created((...call) => engine.call(...call), last, touched) };
+  });
+  if (edited) await showEdited(edited.info, last.do === "delete" ? undefined : edited.made ?? of);
 }
 
 async function takeBack(call: "undo" | "redo"): Promise<void> {
@@ -381,7 +367,11 @@ function connect(): void {
   byId("fit").onclick = () => map.fit();
   byId("zoom-in").onclick = () => map.zoom(1.5);
   byId("zoom-out").onclick = () => map.zoom(1 / 1.5);
-  byId("measure").onclick = () => setMeasuring(!measured);
+  for (const tool of TOOLS) {
+    // A page that only shows draws nothing.
+    byId(tool).hidden = shared !== undefined && tool !== "measure";
+    byId(tool).onclick = () => tools.takeUp(tools.tool === tool ? undefined : tool);
+  }
   byId("cancel").onclick = () => {
     engine.restart(t("Cancel"));
     close();
@@ -413,7 +403,8 @@ function connect(): void {
   };
   panels.ontarget = (target) => void saveAs(target);
   if (!shared) {
-    panels.onedit = (step) => void edit(step);
+    panels.onedit = (step) => void edit([step]);
+    tools.onedit = (steps, of) => void edit(steps, of);
     for (const call of ["undo", "redo"] as const) {
       byId(call).hidden = false;
       byId(call).onclick = () => void takeBack(call);
@@ -423,9 +414,12 @@ function connect(): void {
     const { target } = event;
     const isTyping = target instanceof HTMLInputElement && target.type !== "checkbox";
     if (event.key === "Escape") {
-      setMeasuring(false);
+      // Each press ends one thing.
+      if (tools.endOne()) return;
       pointer.selected = pointer.hovered = undefined;
       panels.showElement(undefined);
+    } else if (event.key === "Enter" && target === map.canvas) {
+      tools.endPath();
     } else if (event.key === "/" && !isTyping) {
       event.preventDefault();
       panels.tab("find");

@@ -20,6 +20,10 @@ export class GuidewayMap {
   onfail: (error: unknown) => void = () => {};
   onview: (view: View) => void = () => {};
   onpoint: (x: number, y: number, isClick: boolean) => void = () => {};
+  /** Returns `true` if a press at a place takes up what lies there, instead of the map. */
+  onlift: (at: Point) => boolean = () => false;
+  /** What was taken up is at a place, or dropped there; without a place it goes back. */
+  ondrag: (at: Point | undefined, isDropped: boolean) => void = () => {};
   /** What the page draws over the paths. */
   overlay: (pen: CanvasRenderingContext2D, at: (point: Point) => Point) => void = () => {};
   /** Colors and decorations, without view and size. */
@@ -37,6 +41,7 @@ export class GuidewayMap {
   private painted: View | undefined;
   private pointers = new Map<number, Point>();
   private moved = 0;
+  private isLifted = false;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     new ResizeObserver(() => this.takeSize() && void this.refresh()).observe(canvas);
@@ -224,7 +229,20 @@ export class GuidewayMap {
   private down(event: PointerEvent): void {
     this.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, this.at(event));
-    if (this.pointers.size === 1) this.moved = 0;
+    if (this.pointers.size > 1) {
+      this.putBack();
+      return;
+    }
+    this.moved = 0;
+    this.isLifted = this.onlift(this.at(event));
+  }
+
+  /** What is being dragged goes back to where it was; returns `false` if nothing is. */
+  putBack(): boolean {
+    if (!this.isLifted) return false;
+    this.isLifted = false;
+    this.ondrag(undefined, false);
+    return true;
   }
 
   private move(event: PointerEvent): void {
@@ -239,7 +257,9 @@ export class GuidewayMap {
     const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
     this.moved += Math.hypot(dx, dy);
     if (others.length === 0) {
-      if (this.moved > 4 * this.scale) this.pan(dx, dy);
+      if (this.moved <= 4 * this.scale) return;
+      if (this.isLifted) this.ondrag(now, false);
+      else this.pan(dx, dy);
       return;
     }
     // Two fingers: the world points below them stay there.
@@ -253,7 +273,14 @@ export class GuidewayMap {
     const isTap = this.pointers.size === 1 && this.moved <= 4 * this.scale;
     this.pointers.delete(event.pointerId);
     const [x, y] = this.at(event);
-    if (isTap && event.type === "pointerup") this.onpoint(x, y, true);
+    const isUp = event.type === "pointerup";
+    if (this.isLifted && !isTap && isUp) {
+      this.isLifted = false;
+      this.ondrag([x, y], true);
+      return;
+    }
+    this.putBack();
+    if (isTap && isUp) this.onpoint(x, y, true);
   }
 
   private key(event: KeyboardEvent): void {

@@ -2,7 +2,7 @@
 
 import type { Details, Diff, EditStep, Finding, Findings, Info, Look } from "./answers.js";
 import type { Reference, Summary } from "./answers.js";
-import { field, remove, rename, set } from "./editing.js";
+import { actions, field, remove, rename, set } from "./editing.js";
 import { DARK, LIGHT } from "./map.js";
 import { count, meters, t } from "./text.js";
 
@@ -235,10 +235,15 @@ export class Panels {
       const onset = (typed: string) => onedit(set(element, cell, typed));
       if (cell.edited) text.replaceChildren(field(cell.name, text.textContent!, cell.value, onset));
     });
-    const button = document.createElement("button");
-    button.textContent = t("Delete");
-    button.onclick = () => onedit(remove(element));
-    place.append(button);
+    const buttons = document.createElement("p");
+    buttons.className = "row";
+    for (const [words, step] of [...actions(element), ["Delete", remove(element)] as const]) {
+      const button = document.createElement("button");
+      button.textContent = t(words);
+      button.onclick = () => onedit(step);
+      buttons.append(button, " ");
+    }
+    place.append(buttons);
   }
 
   showFound(found: Summary[], words: string, fly: (of: Reference) => void = () => {}): void {

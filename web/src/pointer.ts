@@ -4,7 +4,7 @@ import type { Details, Point, Reference } from "./answers.js";
 import type { Engine } from "./engine.js";
 
 /** Reach of the pointer, in points. */
-const REACH = 8;
+export const REACH = 8;
 
 export class Pointer {
   hovered: Details | undefined;
@@ -23,6 +23,12 @@ export class Pointer {
 
   details(of: Reference): Promise<Details> {
     return this.call<Details>("element", [of.kind, of.row]);
+  }
+
+  /** The node at a pixel of the last picture. */
+  async nodeAt([x, y]: Point, scale: number): Promise<Details | undefined> {
+    const hit = await this.call<Reference | null>("hit", [x, y, REACH * scale]);
+    return hit?.kind === "node" ? this.details(hit) : undefined;
   }
 
   /** Hovers, or selects, what is at a pixel of the last picture; `scale` is pixels per point.

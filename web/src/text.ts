@@ -15,6 +15,16 @@ const german: Record<string, string> = {
   "Edit": "Bearbeiten",
   "Name": "Name",
   "Delete": "Löschen",
+  "Add a station": "Station hinzufügen",
+  "Reverse": "Umkehren",
+  "Make one-way": "In eine Richtung",
+  "Make two-way": "In beide Richtungen",
+  "Node": "Knoten",
+  "Path": "Pfad",
+  "Click places for nodes; Escape ends.": "Orte für Knoten anklicken; Escape beendet.",
+  "Click from node to node, or places between; Enter ends the path, Escape drops it.":
+    "Von Knoten zu Knoten klicken, oder Orte dazwischen; Enter beendet den Pfad, Escape verwirft " +
+    "ihn.",
   "editing": "wird bearbeitet",
   "Measure": "Messen",
   "Layout": "Layout",

@@ -197,6 +197,7 @@ async function handsAndKeysWork() {
   const [made, expected] = [await saved.path(), join(folder, "site.dxf")];
   assert.ok(readFileSync(made).equals(readFileSync(expected)), "the DXF file differs");
   await editsAreMadeInPlace(page, settle);
+  await nodesAndPathsAreDrawn(page, settle);
   // An engine that stops leaves a page that opens the next file.
   await page.evaluate(() => guideway.engine.restart("stopped by the test"));
   await load(page, site);
@@ -239,7 +240,7 @@ async function editsAreMadeInPlace(page, settle) {
   assert.ok(edited.bytes, "the edited layout is saved");
   const hasAll = () => /326/.test(document.querySelector("#facts").textContent);
   assert.ok(await page.evaluate(hasAll));
-  await settle(() => page.click("#element > button"));
+  await settle(() => page.click("#element button >> text=/^Delete$/"));
   await page.waitForFunction(`!(${hasAll})()`);
   for (let i = 0; i < 4; i++) await settle(() => page.click("#undo"));
   await select("cross-171");
@@ -249,6 +250,96 @@ async function editsAreMadeInPlace(page, settle) {
   await settle(() => page.keyboard.press("Control+z"));
   await select("dock-1-002--dock-1-003");
   await says("0.3 m/s");
+}
+
+/** Drags a node, draws nodes and paths by clicks and keys, and takes all of it back. */
+async function nodesAndPathsAreDrawn(page, settle) {
+  const element = (words) =>
+    page.waitForFunction((words) => {
+      return document.querySelector("#element").textContent.includes(words);
+    }, words);
+  const counts = () =>
+    page.evaluate(() => {
+      const values = [...document.querySelectorAll("#facts dd")].map((of) => of.textContent);
+      return { paths: Number(values[2]), nodes: Number(values[3]), stations: Number(values[4]) };
+    });
+  const before = await counts();
+  const onScreen = async (point) => {
+    const box = await page.locator("#map").boundingBox();
+    const [x, y] = await page.evaluate((point) => guideway.map.pixel(point), point);
+    return [box.x + x, box.y + y];
+  };
+  const place = (name) =>
+    page.evaluate(async (name) => {
+      const found = await guideway.engine.call("find", [name, 10]);
+      const { row } = found.find(({ id, kind }) => id === name && kind === "node");
+      return (await guideway.engine.call("element", ["node", row])).outline[0][0];
+    }, name);
+  await page.click("[data-tab=find]");
+  await page.fill("#query", "cross-171");
+  await page.waitForSelector("#found button");
+  await settle(() => page.click("#found button"));
+  await page.click("[data-tab=layout]");
+  const from = await place("cross-171");
+  const to = [from[0] + 1.5, from[1] + 0.75];
+  const drag = async () => {
+    await page.mouse.move(...(await onScreen(from)));
+    await page.mouse.down();
+    await page.mouse.move(...(await onScreen([from[0] + 1, from[1]])), { steps: 4 });
+    await page.mouse.move(...(await onScreen(to)), { steps: 4 });
+  };
+  const view = await page.evaluate(() => guideway.map.view);
+  await drag();
+  await page.keyboard.press("Escape");
+  await page.mouse.up();
+  assert.deepEqual(await place("cross-171"), from, "Escape lets the node lie");
+  await drag();
+  await page.screenshot({ path: join(shots, "drag.png") });
+  await settle(() => page.mouse.up());
+  const dropped = await place("cross-171");
+  assert.ok(Math.hypot(dropped[0] - to[0], dropped[1] - to[1]) < 0.05, `dropped at ${dropped}`);
+  assert.deepEqual(await page.evaluate(() => guideway.map.view), view, "the map stays");
+  const click = async (point) => page.mouse.click(...(await onScreen(point)));
+  // A node, and a path from the node that was moved through a point to a place that has none.
+  await page.click("#draw-node");
+  await settle(() => click([to[0] + 1, to[1] + 2]));
+  await element("node N");
+  assert.deepEqual(await counts(), { ...before, nodes: before.nodes + 1 });
+  await page.click("#draw-path");
+  await click(dropped);
+  await click([to[0] - 1, to[1] + 1.5]);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Enter");
+  assert.deepEqual(await counts(), { ...before, nodes: before.nodes + 1 }, "Escape drops the path");
+  assert.equal(await page.getAttribute("#draw-path", "aria-pressed"), "true");
+  await click(dropped);
+  await click([to[0] - 1, to[1] + 1.5]);
+  await click([to[0] - 2, to[1] + 2.5]);
+  await page.screenshot({ path: join(shots, "drawing.png") });
+  await settle(() => page.keyboard.press("Enter"));
+  await element("path ");
+  const drawn = { paths: before.paths + 1, nodes: before.nodes + 2 };
+  assert.deepEqual(await counts(), { ...before, ...drawn });
+  await page.keyboard.press("Escape");
+  assert.equal(await page.getAttribute("#draw-path", "aria-pressed"), "false");
+  await element("one-way");
+  const press = (words) => page.click(`#element button >> text=/^${words}$/`);
+  await settle(() => press("Make two-way"));
+  await element("two-way");
+  await settle(() => press("Reverse"));
+  await page.screenshot({ path: join(shots, "drawn.png") });
+  await settle(() => page.click("#fit"));
+  await page.click("[data-tab=find]");
+  await page.fill("#query", "cross-171");
+  await page.waitForSelector("#found button");
+  await settle(() => page.click("#found button"));
+  await page.click("[data-tab=layout]");
+  await settle(() => press("Add a station"));
+  await element("station ");
+  assert.deepEqual(await counts(), { ...before, ...drawn, stations: before.stations + 1 });
+  for (let i = 0; i < 6; i++) await settle(() => page.click("#undo"));
+  assert.deepEqual(await counts(), before);
+  assert.deepEqual(await place("cross-171"), from);
 }
 
 /** A layout whose names have symbols and rare letters, for which the page has fonts of their own. */
@@ -362,7 +453,9 @@ async function sharedLayoutsAreWhole() {
     await page.waitForFunction(() => guideway.map.drawn > 0);
     const made = await pngOf(page, { width: 640, height: 400, ...marks });
     assert.ok(isSame(made, readFileSync(expected)), `${layout}: the shared picture differs`);
-    assert.ok(await page.isHidden("#undo"), "a shared page edits nothing");
+    for (const of of ["#undo", "#draw-node", "#draw-path"]) {
+      assert.ok(await page.isHidden(of), "a shared page edits nothing");
+    }
     assert.ok(await page.isHidden("#compare"), "the engine of a shared page compares nothing");
     await page.click("[data-tab=export]");
     const [saved] = await Promise.all([
