@@ -3,6 +3,7 @@
 mod beside;
 mod conformance;
 mod debian_rust;
+mod lock_files;
 mod macos;
 mod pack;
 mod prerequisites;
@@ -97,10 +98,14 @@ fn main() -> ExitCode {
 fn test() -> Result<()> {
     heading("prerequisites");
     prerequisites::rust_components()?;
-    CARGO_DENY.ensure()?;
-    MDBOOK.ensure()?;
-    step::set_env("GUIDEWAY_PYTHON", prerequisites::python()?);
-    prerequisites::debian_packages()?;
+    // Packages take the network, while tools are built.
+    let (tools, python) = std::thread::scope(|scope| {
+        let tools = scope.spawn(|| CARGO_DENY.ensure().and_then(|_| MDBOOK.ensure()));
+        let python = prerequisites::debian_packages().and_then(|()| prerequisites::python());
+        (tools.join(), python)
+    });
+    tools.map_err(|_| anyhow!("the installation of tools panicked"))??;
+    step::set_env("GUIDEWAY_PYTHON", python?);
     step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
     lints()?;
     heading("building the tests");
@@ -131,12 +136,7 @@ fn checks() -> Result<()> {
         .args(["check", "bans", "licenses", "sources"])
         .run()?;
     heading("advisories and yanked versions of every lock file");
-    for manifest in WORKSPACES {
-        // What a changed dependency leaves behind in another workspace.
-        let locked = ["update", "--quiet", "--workspace", "--locked"];
-        cargo(&locked).args(["--manifest-path", manifest]).run()?;
-        check_advisories(&deny, manifest)?;
-    }
+    lock_files::check(&deny)?;
     heading("documentation");
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"])
         .env("RUSTDOCFLAGS", "-D warnings")
@@ -257,38 +257,6 @@ fn header() -> Result<()> {
         .args(["--quiet", "crates/guideway-c", "--output"])
         .args(["crates/guideway-c/include/guideway.h"])
         .run()
-}
-
-/// Workspaces with a lock file of their own.
-const WORKSPACES: [&str; 4] = [
-    "Cargo.toml",
-    "fuzz/Cargo.toml",
-    "bench/peers/Cargo.toml",
-    "bench/readers/Cargo.toml",
-];
-
-fn check_advisories(deny: &Path, manifest: &str) -> Result<()> {
-    let checked = step::command(deny)
-        .args(["--manifest-path", manifest, "--config", "deny.toml"])
-        .args(["--locked", "check", "advisories"])
-        .capture()?;
-    // Without a network there is no advisory database: report that, and do not fail.
-    let offline = [
-        "failed to fetch",
-        "failed to download",
-        "Could not resolve host",
-    ];
-    if checked.succeeded {
-        println!("{manifest}: none");
-    } else if offline.iter().any(|reason| checked.stderr.contains(reason)) {
-        println!("NOT CHECKED: {manifest}: the registry cannot be reached from this machine");
-    } else {
-        bail!(
-            "cargo deny found an advisory for {manifest}:\n{}",
-            checked.stderr
-        );
-    }
-    Ok(())
 }
 
 fn fuzz(args: &[String]) -> Result<()> {
