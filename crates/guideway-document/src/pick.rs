@@ -43,7 +43,8 @@ pub fn pick(
     };
     let rank = |path: u32| {
         let rank = scene.layout().paths.rank();
-        (rank.map_or(0, |rank| rank[path as usize]), path)
+        let rank = rank.map_or(0, |rank| rank[path as usize]);
+        (!scene.is_below_ways(path), rank, path)
     };
     let mut best: Option<(Hit, bool)> = None;
     let spot = spot.inflated(reach_m);

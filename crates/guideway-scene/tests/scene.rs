@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Layout, Level, NewPath, Quantity, Value};
+use guideway_layout::{Layout, Level, NewPath, OwnStyle, Quantity, Value};
 use guideway_scene::density::{ToneMap, shade};
 use guideway_scene::{
-    ColorBy, Edit, Frame, FrameSize, Palette, PathState, Rgba, Scene, SceneError, SceneOptions,
+    ColorBy, Edit, Frame, FrameSize, Insertion, Palette, PathState, Rgba, Scene, SceneError,
+    SceneOptions,
 };
 use guideway_spline::{Point, Runs};
 
@@ -273,6 +274,24 @@ fn legend_has_round_numbers_at_their_colors() {
             assert!(entry.color.b.abs_diff(b) <= 2, "{tone:?} {count}");
         }
     }
+    // A copy of a wall is a wall, and a color of its own makes it no way.
+    let copy = Insertion {
+        attributes_of: Some(2),
+        ..Insertion::default()
+    };
+    styled.edit(&Edit::Insert([copy].into())).unwrap();
+    assert_eq!(styled.color(3), styled.color(2));
+    assert_eq!(styled.draw_order(), [2, 3, 0, 1]);
+    let red = OwnStyle {
+        width_m: None,
+        color_rgba: Some(0xff00_00ff),
+    };
+    let restyled = [(2, red), (1, red)].into();
+    styled.edit(&Edit::Restyle(restyled)).unwrap();
+    assert_eq!(styled.color(2), styled.color(3));
+    assert_eq!(styled.color(1), Rgba::opaque(255, 0, 0));
+    let below = [0, 1, 2, 3].map(|row| styled.is_below_ways(row));
+    assert_eq!(below, [false, false, true, true]);
     let single = shade(
         &[1.0],
         ToneMap::Log,

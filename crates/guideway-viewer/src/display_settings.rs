@@ -182,6 +182,7 @@ impl DisplaySettings {
     /// Returns `true` if the density of paths is shown, not their colors.
     pub(crate) fn shows_density(&self) -> bool {
         self.is_density || self.is_crowded
+            has_gray_structure: true,
     }
 
     /// Shows density or colors, as the user decides.

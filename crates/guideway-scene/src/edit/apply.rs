@@ -118,8 +118,9 @@ impl Scene {
     /// Gives restyled paths their own colors.
     fn follow_own_colors(&mut self, styles: &[(u32, OwnStyle)]) {
         let rows = self.row_count();
-        let (layout, base) = (&self.layout, self.coloring.base);
-        let own = |path: u32| own_color(layout, base, path);
+        let layout = &self.layout;
+        let common = (self.coloring.base, self.coloring.structure_below);
+        let own = |path: u32| own_color(layout, common, path);
         if let Colors::One(one) = self.coloring.colors {
             if styles.iter().all(|&(path, _)| own(path) == one) {
                 return;

@@ -22,7 +22,7 @@ pub struct Coloring {
     pub(crate) base: Rgba,
     pub(crate) legend: Option<Legend>,
     /// True if paths that no vehicle drives are drawn below all others.
-    pub(super) structure_below: bool,
+    pub(crate) structure_below: bool,
 }
 
 /// One color for all paths, or one for each row.
@@ -115,8 +115,11 @@ impl Colors {
     }
 }
 
-/// Color of a path when no column decides it.
-pub(crate) fn own_color(layout: &Layout, base: Rgba, path: u32) -> Rgba {
+/// Color of a path when no column decides it: walls and doors are gray where they are drawn below.
+pub(crate) fn own_color(layout: &Layout, (base, structure_below): (Rgba, bool), path: u32) -> Rgba {
+    if structure_below && !layout.paths.is_driven(path as usize) {
+        return STRUCTURE;
+    }
     let own = layout.paths.own_style(path as usize).color_rgba;
     own.map_or(base, Rgba::from_u32)
 }

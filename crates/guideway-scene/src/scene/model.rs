@@ -195,7 +195,17 @@ impl Scene {
 
     /// Color of a path when no column decides it.
     pub(crate) fn own_color(&self, path: u32) -> Rgba {
-        own_color(&self.layout, self.coloring.base, path)
+        let Coloring {
+            base,
+            structure_below,
+            ..
+        } = self.coloring;
+        own_color(&self.layout, (base, structure_below), path)
+    }
+
+    /// Returns `true` if a path is a wall or a door that is drawn below all ways of vehicles.
+    pub fn is_below_ways(&self, path: u32) -> bool {
+        self.coloring.structure_below && !self.layout.paths.is_driven(path as usize)
     }
 
     /// The path's own width in meters, if it has one.

@@ -203,7 +203,7 @@ impl BackgroundTasks {
                 .or_else(|| self.poll_colors(document, file, repaint));
             events.extend(event);
             let is_old = self.colored != document.values_revision();
-            if is_old && self.options.color_by.is_some() && self.recoloring.is_none() {
+            if is_old && self.reads_values(document) && self.recoloring.is_none() {
                 self.start_recoloring(document, repaint);
             }
         }
@@ -212,6 +212,13 @@ impl BackgroundTasks {
 
     fn poll_check(&mut self) -> Option<TaskEvent> {
         let result = self.checking.as_ref().and_then(BackgroundTask::result)?;
+    /// Returns `true` if values of a document decide its colors: those of a column, or which paths
+    /// are walls.
+    fn reads_values(&self, document: &Document) -> bool {
+        let has_walls = || document.layout().paths.column("element").is_some();
+        self.options.color_by.is_some() || self.options.has_gray_structure && has_walls()
+    }
+
         self.checking = None;
         match result {
             Ok(findings) => {
