@@ -111,6 +111,7 @@ mod tests {
             text: "lé\u{10FFFD}".into(),
             left_middle_px: Point::new(40.0, 64.0),
             angle_rad: 0.0,
+            anchor: 0.0,
             char_width_px: 12.0,
             color: Rgba::BLACK,
             halo: Rgba::opaque(0, 255, 0),

@@ -95,6 +95,7 @@ fn shapes() -> DrawList {
         text: "a name".into(),
         left_middle_px: Point::new(200.0, 64.0),
         angle_rad: 0.0,
+        anchor: 0.0,
         char_width_px: 9.0,
         color: red,
         halo: Rgba::WHITE,

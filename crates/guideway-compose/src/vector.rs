@@ -125,3 +125,4 @@ mod tests {
         assert!(!text.contains("nothing"));
     }
 }
+            anchor: 0.0,

@@ -26,7 +26,7 @@ pub struct Fill {
     pub polygons: Vec<Vec<Point<f64>>>,
 }
 
-/// A line of monospaced text.
+/// A line of text, as wide as in a monospaced font.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextLine {
     /// The characters.
@@ -35,6 +35,9 @@ pub struct TextLine {
     pub left_middle_px: Point<f64>,
     /// Clockwise rotation about that point: the angle of the line below the horizontal.
     pub angle_rad: f64,
+    /// Place of the letters along the line in a font that is narrower, such as that of a window: 0
+    /// at the left end, 1 at the right end.
+    pub anchor: f64,
     /// Width of a character, in pixels.
     pub char_width_px: f64,
     /// Color of the characters.
@@ -177,3 +180,4 @@ mod tests {
         );
     }
 }
+            anchor: 0.0,

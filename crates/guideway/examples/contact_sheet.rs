@@ -83,6 +83,7 @@ fn render_cell(file: &Path, number: usize) -> Result<Frame, Box<dyn Error>> {
         text: number.to_string(),
         left_middle_px: Point::new(MARGIN_PX as f64, CELL_PX[1] as f64 - DIGIT_PX),
         angle_rad: 0.0,
+        anchor: 0.0,
         char_width_px: DIGIT_PX,
         color: Rgba::opaque(0, 0, 255),
         halo: Rgba::from_u32(0),

@@ -104,6 +104,7 @@ impl DrawnRoute {
             text: guideway_document::text_format::single_line(name, 40),
             left_middle_px: at + Point::new(ring_px + GAP_POINTS * point_px, 0.0),
             angle_rad: 0.0,
+            anchor: 0.0,
             char_width_px: style.line_px() * TextLine::CHAR_ASPECT,
             color,
             halo: style.paper.with_opacity(LABEL_PAPER_OPACITY),

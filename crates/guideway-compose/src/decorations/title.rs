@@ -26,6 +26,7 @@ pub(super) fn title(
         text: text_format::single_line(text, fitting.min(MAX_CHARS)),
         left_middle_px: Point::new(0.0, 1.25 * line_px),
         angle_rad: 0.0,
+        anchor: 0.0,
         char_width_px,
         color: style.ink,
         halo: Rgba::from_u32(0),

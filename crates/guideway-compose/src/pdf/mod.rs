@@ -300,6 +300,7 @@ mod tests {
             text: "o".into(),
             left_middle_px: p(10.0, 50.0),
             angle_rad: 0.0,
+            anchor: 0.0,
             char_width_px: 12.0,
             color: Rgba::BLACK,
             halo: Rgba::from_u32(0),

@@ -44,6 +44,7 @@ mod tests {
             text: text.to_owned(),
             left_middle_px: Point::new(x, y),
             angle_rad,
+            anchor: 0.0,
             char_width_px: 6.0,
             color: Rgba::BLACK,
             halo: Rgba::BLACK,

@@ -87,6 +87,7 @@ impl Marks {
                 text: label.text.clone(),
                 left_middle_px: map(label.at_px),
                 angle_rad: label.angle_rad,
+                anchor: label.anchor,
                 char_width_px: style.label_size().char_px,
                 color: style.ink,
                 halo: style.paper,
@@ -152,6 +153,7 @@ fn arrow_heads(
 mod tests {
     use guideway_scene::Rgba;
 
+    use super::super::labels::Label;
     use super::*;
 
     fn arrow(direction: Point<f64>, line_radius_px: f64) -> Arrow {
@@ -183,6 +185,27 @@ mod tests {
         assert_eq!(tips.collect::<Vec<_>>(), [18.0, 18.0, 62.0]);
         // A disc of 3.75 points at twice the pixels, about (2, 2).
         assert_eq!(list.fills[1].polygons[0][0], Point::new(9.5, 2.0));
+    }
+
+    #[test]
+    fn names_have_halos_of_paper() {
+        let label = Label {
+            text: "dock".into(),
+            at_px: Point::new(5.0, 6.0),
+            angle_rad: 0.0,
+            anchor: 1.0,
+        };
+        let marks = Marks {
+            labels: vec![label],
+            ..Marks::default()
+        };
+        for background in [Rgba::WHITE, Rgba::opaque(24, 26, 30)] {
+            let style = DecorationStyle::new(background, 1.0);
+            let list = marks.draw(&style, |at| at);
+            let text = &list.texts[0];
+            assert_eq!((text.color, text.halo), (style.ink, background));
+            assert!(text.halo_px() > 1.5 && text.anchor == 1.0);
+        }
     }
 
     #[test]

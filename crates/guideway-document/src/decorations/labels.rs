@@ -33,6 +33,9 @@ pub struct Label {
     pub at_px: Point<f64>,
     /// Clockwise rotation about that point: the angle of the line below the horizontal.
     pub angle_rad: f64,
+    /// Place of the letters along the label in a narrower font: see
+    /// [`TextLine::anchor`](guideway_scene::TextLine::anchor).
+    pub anchor: f64,
 }
 
 /// The places of a label to try, the preferred one first.
@@ -60,6 +63,17 @@ pub(super) enum Side {
     BelowRight,
     AboveLeft,
     BelowLeft,
+}
+
+impl Side {
+    /// The anchor by which the letters keep near their position.
+    fn anchor(self) -> f64 {
+        match self {
+            Self::Right | Self::AboveRight | Self::BelowRight => 0.0,
+            Self::Above | Self::Below => 0.5,
+            Self::Left | Self::AboveLeft | Self::BelowLeft => 1.0,
+        }
+    }
 }
 
 /// A name to place beside a position.
@@ -117,11 +131,14 @@ impl LabelSize {
         (0..=steps as u32).map(square).collect()
     }
 
-    /// The places of a label to try: middle of the left edge, and rotation.
-    fn places(self, name: &Name<'_>, width_px: f64) -> Vec<(Point<f64>, f64)> {
+    /// The places of a label to try: middle of the left edge, rotation, and anchor.
+    fn places(self, name: &Name<'_>, width_px: f64) -> Vec<(Point<f64>, f64, f64)> {
         match name.places {
             LabelPlaces::Beside(sides) => {
-                let of_side = |&side| (self.left_middle_px(side, name.at_px, width_px), 0.0);
+                let of_side = |&side: &Side| {
+                    let at_px = self.left_middle_px(side, name.at_px, width_px);
+                    (at_px, 0.0, side.anchor())
+                };
                 sides.iter().map(of_side).collect()
             }
             LabelPlaces::Along {
@@ -143,7 +160,7 @@ impl LabelSize {
                 let above = Point::new(along.y, -along.x) * (self.line_px + line_radius_px);
                 let left = name.at_px - along * (width_px / 2.0);
                 [above, above * -1.0]
-                    .map(|aside| (left + aside, angle_rad))
+                    .map(|aside| (left + aside, angle_rad, 0.5))
                     .into()
             }
         }
@@ -204,7 +221,7 @@ pub(super) fn place<'a>(
             !others.iter().any(hits)
         };
         let mut best: Option<(f64, Label, Vec<Bounds<f64>>)> = None;
-        for (at_px, angle_rad) in size.places(&name, width_px) {
+        for (at_px, angle_rad, anchor) in size.places(&name, width_px) {
             let boxes = size.boxes(at_px, angle_rad, width_px);
             let covered = boxes.iter().map(|of| obstacles.lines.coverage(*of));
             let crossed = covered.sum::<f64>() / boxes.len() as f64;
@@ -222,6 +239,7 @@ pub(super) fn place<'a>(
                     text: text.clone(),
                     at_px,
                     angle_rad,
+                    anchor,
                 };
                 best = Some((crossed, label, boxes));
             }

@@ -177,6 +177,7 @@ fn text(text: String, style: &DecorationStyle) -> TextLine {
         text,
         left_middle_px: Point::default(),
         angle_rad: 0.0,
+        anchor: 0.0,
         char_width_px: style.line_px() * TextLine::CHAR_ASPECT,
         color: style.ink,
         halo: style.paper.with_opacity(0.0),

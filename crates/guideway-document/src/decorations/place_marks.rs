@@ -17,6 +17,9 @@ use crate::reverse_pairs::ReversePairs;
 const SYMBOL_POINTS: f64 = 8.0;
 /// Size of the symbol of a station, per unit of that of a node.
 const STATION_SIZE: f64 = 1.5;
+/// Largest part of a station's name that lines may cross: more than of other names, and less than
+/// one line along it covers, which is a row of the five or six cells of its height.
+const MAX_CROSSED_STATION: f64 = 0.15;
 /// Largest part of a node's name that lines may cross: a corner of it.
 const MAX_CROSSED_NODE: f64 = 0.12;
 /// Largest part of a path's name that lines may cross.
@@ -205,8 +208,8 @@ impl<'d> Visible<'d> {
     }
 
     /// Labels of stations, nodes and paths, in order of priority, clear of `symbols`, and those of
-    /// paths clear of `arrows`. Lines may cross the names of stations, if there is no other place.
-    /// A node that a station stands on has the name of the station.
+    /// paths clear of `arrows`. No line strikes a name through: one without a free place is left
+    /// out. A node that a station stands on has the name of the station.
     fn labels(
         &self,
         symbols: &[Point<f64>],
@@ -227,7 +230,7 @@ impl<'d> Visible<'d> {
             text: layout.stations.id(row),
             at_px,
             places: LabelPlaces::Beside(AROUND),
-            max_crossed: 1.0,
+            max_crossed: MAX_CROSSED_STATION,
             spares_arrows: false,
         });
         let mut free = Declutter::new(SYMBOL_POINTS * px_per_point);

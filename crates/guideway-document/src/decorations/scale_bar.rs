@@ -37,6 +37,7 @@ pub fn scale_bar(view: &View, style: &DecorationStyle, corner: Corner) -> DrawLi
         text: text_format::length(length_m(view, style)),
         left_middle_px: left + LABEL_POINTS * point_px,
         angle_rad: 0.0,
+        anchor: 0.0,
         char_width_px: style.label_size().char_px,
         color: style.ink,
         halo: style.paper,

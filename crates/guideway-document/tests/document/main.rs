@@ -9,6 +9,7 @@ mod groups;
 mod growth;
 mod history;
 mod marks;
+mod names;
 mod network;
 mod nodes;
 mod operations;

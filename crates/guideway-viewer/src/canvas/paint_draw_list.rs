@@ -42,11 +42,20 @@ fn add_polygon(mesh: &mut Mesh, color: Color32, screen: Screen, corners: &[Point
 }
 
 fn paint_text(painter: &Painter, screen: Screen, text: &TextLine) {
-    let font = FontId::monospace(text.height_px() as f32 / screen.px_per_point);
     let color = color32(text.color);
-    let galley = painter.layout_no_wrap(text.text.clone(), font, color);
+    let [width, size] =
+        [text.width_px(), text.height_px()].map(|px| px as f32 / screen.px_per_point);
+    let layout =
+        |size| painter.layout_no_wrap(text.text.clone(), FontId::proportional(size), color);
+    let mut galley = layout(size);
+    // Names are placed by the width that they have in pictures, whose font is monospaced: few are
+    // wider in the font of the window.
+    if galley.size().x > width && width > 0.0 {
+        galley = layout(size * width / galley.size().x);
+    }
+    let spare = width - galley.size().x;
     let angle = text.angle_rad as f32;
-    let corner = Vec2::new(0.0, -galley.size().y / 2.0);
+    let corner = Vec2::new(text.anchor as f32 * spare, -galley.size().y / 2.0);
     let corner = screen.point(text.left_middle_px) + Rot2::from_angle(angle) * corner;
     let copy = |by: Vec2, color: Color32| {
         let shape = TextShape::new(corner + by, Arc::clone(&galley), color);
@@ -80,4 +89,49 @@ pub(super) fn paint_text_box(
 /// Straight alpha to the premultiplied alpha of egui.
 pub(super) fn color32(rgba: Rgba) -> Color32 {
     Color32::from_rgba_unmultiplied(rgba.r, rgba.g, rgba.b, rgba.a)
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::{Context, RawInput, Shape};
+
+    use super::*;
+
+    #[test]
+    fn letters_keep_to_the_end_of_their_space_that_the_anchor_names() {
+        let ctx = Context::default();
+        let screen = Screen {
+            rect: Rect::from_min_size(pos2(10.0, 20.0), Vec2::splat(400.0)),
+            px_per_point: 2.0,
+        };
+        // A space of five columns, from 60 to 93 points.
+        let (left, right) = (60.0, 93.0);
+        for (anchor, place) in [(0.0, left), (0.5, (left + right) / 2.0), (1.0, right)] {
+            let list = DrawList {
+                texts: vec![TextLine {
+                    text: "n12 4".into(),
+                    left_middle_px: Point::new(100.0, 50.0),
+                    angle_rad: 0.0,
+                    anchor,
+                    char_width_px: 13.2,
+                    color: Rgba::BLACK,
+                    halo: Rgba::from_u32(0),
+                }],
+                ..DrawList::default()
+            };
+            let mut output = ctx.run_ui(RawInput::default(), |ui| {
+                paint_draw_list(ui.painter(), screen, &list);
+            });
+            output.textures_delta.clear();
+            let mut texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
+                Shape::Text(text) => Some(text),
+                _ => None,
+            });
+            let text = texts.next().expect("it is painted");
+            let width = text.galley.size().x;
+            assert!(width > 20.0 && width < right - left, "{width}");
+            let at = text.pos.x + anchor as f32 * width;
+            assert!((at - place).abs() < 0.01, "{anchor}: {at}");
+        }
+    }
 }

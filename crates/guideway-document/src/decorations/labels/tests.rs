@@ -90,6 +90,22 @@ fn takes_the_first_side_that_is_clear_of_arrows() {
 }
 
 #[test]
+fn letters_of_a_narrower_font_keep_near_their_position() {
+    let at = Point::new(50.0, 50.0);
+    let anchor = |sides| {
+        placed(vec![name("one", at, sides)], &[], 5.0)
+            .remove(0)
+            .anchor
+    };
+    let anchors = [
+        anchor(&[Side::Right]),
+        anchor(&[Side::Above]),
+        anchor(&[Side::BelowLeft]),
+    ];
+    assert_eq!(anchors, [0.0, 0.5, 1.0]);
+}
+
+#[test]
 fn no_line_strikes_a_name_through_unless_it_may() {
     let at = Point::new(20.0, 50.0);
     let y_of = |max_crossed, sides| {
@@ -135,6 +151,7 @@ fn boxes_of_a_turned_label_cover_it_and_little_more() {
         text: "a long name".into(),
         at_px: Point::new(20.0, 80.0),
         angle_rad: -std::f64::consts::FRAC_PI_4,
+        anchor: 0.5,
     };
     let boxes = SIZE.label_boxes(&label);
     let along = Point::new(label.angle_rad.cos(), label.angle_rad.sin());

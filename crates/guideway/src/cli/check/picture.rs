@@ -189,6 +189,7 @@ fn rings(spots: &[Spot], view: &View) -> DrawList {
             text: kinds.collect::<Vec<_>>().join(", "),
             left_middle_px: spot.at_px + Point::new(radius_px + 4.0, 0.0),
             angle_rad: 0.0,
+            anchor: 0.0,
             char_width_px: TEXT_POINTS * TextLine::CHAR_ASPECT,
             color: ink,
             halo: Rgba::WHITE.with_opacity(0.85),
