@@ -85,4 +85,4 @@ pub use render::{NoProgress, Rendered, StripSink};
 pub use text::PageFont;
 pub use text::{SystemFont, add_font, has_missed_letters, system_font};
 pub use vector_file::VectorFormat;
-pub use widths::suitable_widths;
+pub use widths::{suitable_widths, usual_widths};

@@ -23,21 +23,34 @@ const CROWDED: u32 = 3 * CELL as u32;
 /// Least share of all points that are crowded.
 const MANY: f64 = 0.2;
 
+/// The widths that suit a layout in any view, in points: hairlines for drawings, else those of
+/// tracks in meters. Lines with a width of their own keep it.
+pub fn usual_widths(layout: &Layout) -> LineRule {
+    match layout.is_drawing() {
+        true => lines_of(HAIRLINE_PX),
+        false => LineRule::default(),
+    }
+}
+
+/// Lines of one width in pixels, at any scale.
+fn lines_of(min_px: f64) -> LineRule {
+    LineRule::World {
+        width_m: 0.0,
+        min_px,
+        max_px: 12.0,
+    }
+}
+
 /// The widths that suit a layout in a view. Lines with a width of their own keep it.
 pub fn suitable_widths(layout: &Layout, view: &View, is_all_shown: bool) -> LineRule {
     let size = view.size();
     let side_px = f64::from(size.width().min(size.height()));
     let px_per_point = (side_px / SIDE_PX).max(1.0);
-    let min_px = match (layout.is_drawing(), is_all_shown) {
-        (true, _) => HAIRLINE_PX,
-        (false, true) if is_crowded(layout, view, px_per_point).0 => FINEST_PX,
-        (false, true) => WAY_PX,
-        (false, false) => return LineRule::default(),
-    };
-    let rule = LineRule::World {
-        width_m: 0.0,
-        min_px,
-        max_px: 12.0,
+    let rule = match (layout.is_drawing(), is_all_shown) {
+        (true, _) => usual_widths(layout),
+        (false, true) if is_crowded(layout, view, px_per_point).0 => lines_of(FINEST_PX),
+        (false, true) => lines_of(WAY_PX),
+        (false, false) => return usual_widths(layout),
     };
     rule.scaled(px_per_point)
 }
@@ -149,6 +162,16 @@ mod tests {
         assert_eq!(radius_px("LIF", true, 1920, 1080), 1.0);
         assert_eq!(radius_px("LIF", true, 6000, 4320), 4.0);
         assert_eq!(radius_px("LIF", false, 1920, 1080), 2.5);
+    }
+
+    #[test]
+    fn usual_widths_are_those_of_a_part_of_a_picture() {
+        for format in ["DXF", "LIF"] {
+            let mut layout = Layout::default();
+            layout.provenance.format = format.to_owned();
+            let usual = usual_widths(&layout).radius_px(None, 50.0);
+            assert_eq!(usual, radius_px(&layout, false, 1920, 1080), "{format}");
+        }
     }
 
     /// 40 parallel ways, this far apart in pixels, each there and back.

@@ -16,6 +16,10 @@ use crate::units::{LengthUnit, SpeedUnit, Units};
 pub(crate) const MAX_WIDTH_M: f64 = 2.0;
 /// Range of the least width on screen, in points.
 pub(crate) const MIN_PX_RANGE: RangeInclusive<f64> = 0.5..=8.0;
+/// The width that files of the settings had before it could be automatic, in meters.
+const OLD_WIDTH_M: f64 = 0.1;
+/// Least width on screen until the user sets one, in points.
+const MIN_PX: f64 = 1.5;
 /// Range of the grid step, in meters.
 pub(crate) const GRID_STEPS_M: RangeInclusive<f64> = 0.001..=10_000.0;
 
@@ -45,8 +49,8 @@ pub(crate) struct DisplaySettings {
     #[serde(skip)]
     pub(crate) color_by: Option<String>,
     pub(crate) is_thesis_rule: bool,
-    /// Width of paths without a width of their own, in meters.
-    pub(crate) width_m: f64,
+    /// Width of paths without a width of their own, in meters; `None` takes what suits the file.
+    pub(crate) width_m: Option<f64>,
     /// Least width on screen, in points.
     pub(crate) min_px: f64,
     pub(crate) is_density: bool,
@@ -77,8 +81,8 @@ impl Default for DisplaySettings {
             is_dark: false,
             color_by: None,
             is_thesis_rule: false,
-            width_m: 0.1,
-            min_px: 1.5,
+            width_m: None,
+            min_px: MIN_PX,
             is_density: false,
             is_crowded: false,
             has_arrows: true,
@@ -97,12 +101,10 @@ impl Default for DisplaySettings {
 impl DisplaySettings {
     /// The same with all numbers in their ranges: a file may hold any.
     pub(crate) fn in_range(mut self) -> Self {
-        let default = Self::default();
-        if !(0.0..=MAX_WIDTH_M).contains(&self.width_m) {
-            self.width_m = default.width_m;
-        }
+        let width_m = self.width_m.filter(|_| self.width_m != Some(OLD_WIDTH_M));
+        self.width_m = width_m.filter(|width_m| (0.0..=MAX_WIDTH_M).contains(width_m));
         if !MIN_PX_RANGE.contains(&self.min_px) {
-            self.min_px = default.min_px;
+            self.min_px = MIN_PX;
         }
         self.grid_step_m = self.grid_step_m.filter(|step| GRID_STEPS_M.contains(step));
         self
@@ -138,12 +140,12 @@ impl DisplaySettings {
         DecorationStyle::new(self.background(), px_per_point)
     }
 
-    /// The marks that are shown: arrows, symbols, labels.
-    pub(crate) fn mark_options(&self, px_per_point: f64) -> MarkOptions {
+    /// The marks that are shown over lines of these widths: arrows, symbols, labels.
+    pub(crate) fn mark_options(&self, line_rule: LineRule, px_per_point: f64) -> MarkOptions {
         let label_size = self.decoration_style(px_per_point).label_size();
         MarkOptions {
             px_per_point,
-            line_rule: self.line_rule(px_per_point),
+            line_rule,
             arrows: self.has_arrows,
             symbols: self.has_symbols,
             labels: self.has_labels.then_some(label_size),
@@ -182,7 +184,6 @@ impl DisplaySettings {
     /// Returns `true` if the density of paths is shown, not their colors.
     pub(crate) fn shows_density(&self) -> bool {
         self.is_density || self.is_crowded
-            has_gray_structure: true,
     }
 
     /// Shows density or colors, as the user decides.
@@ -190,11 +191,11 @@ impl DisplaySettings {
         (self.is_density, self.is_crowded) = (is_shown, false);
     }
 
-    /// The style of the picture of one file. Its background is transparent: the window paints
-    /// background, grid and other files below it.
-    pub(crate) fn style(&self, px_per_point: f64) -> Style {
+    /// The style of the picture of one file, whose lines have these widths. Its background is
+    /// transparent: the window paints background, grid and other files below it.
+    pub(crate) fn style(&self, line_rule: LineRule) -> Style {
         Style {
-            line_rule: self.line_rule(px_per_point),
+            line_rule,
             shading: if self.shows_density() {
                 Shading::Density(ToneMap::Log)
             } else {
@@ -212,18 +213,24 @@ impl DisplaySettings {
     }
 
     /// The widths of lines at `px_per_point` pixels per point of the screen: their limits are the
-    /// same length on any screen.
-    pub(crate) fn line_rule(&self, px_per_point: f64) -> LineRule {
+    /// same length on any screen. What the user has not set is that of `automatic`.
+    pub(crate) fn line_rule(&self, automatic: LineRule, px_per_point: f64) -> LineRule {
+        let LineRule::World {
+            width_m,
+            min_px,
+            max_px,
+        } = automatic
+        else {
+            return LineRule::Thesis;
+        };
         if self.is_thesis_rule {
             return LineRule::Thesis;
         }
-        let rule = match LineRule::default() {
-            LineRule::World { max_px, .. } => LineRule::World {
-                width_m: self.width_m,
-                min_px: self.min_px,
-                max_px: max_px.max(self.min_px),
-            },
-            LineRule::Thesis => LineRule::Thesis,
+        let is_set = self.width_m.is_some() || self.min_px != Self::default().min_px;
+        let rule = LineRule::World {
+            width_m: self.width_m.unwrap_or(width_m),
+            min_px: if is_set { self.min_px } else { min_px },
+            max_px: max_px.max(self.min_px),
         };
         rule.scaled(px_per_point)
     }
@@ -244,7 +251,7 @@ mod tests {
     fn only_color_settings_need_another_scene() {
         let settings = DisplaySettings::default();
         let mut wide = settings.clone();
-        wide.width_m = 2.0;
+        wide.width_m = Some(2.0);
         let mut colored = settings.clone();
         colored.color_by = Some("maxSpeed".into());
         assert!(!settings.needs_other_scene(&wide) && settings.needs_other_scene(&colored));
@@ -259,7 +266,8 @@ mod tests {
                 ..DisplaySettings::default()
             };
             let paper = settings.background();
-            let tones = ToneScale::new(ToneMap::Log, settings.style(1.0).background);
+            let tones =
+                ToneScale::new(ToneMap::Log, settings.style(LineRule::default()).background);
             let tones = tones.legend().scale.unwrap().colors;
             for color in tones.into_iter().chain([PATH_COLOR]) {
                 let contrast = contrast(color, paper);
@@ -288,7 +296,7 @@ mod tests {
     fn lines_are_as_wide_on_a_screen_of_high_density() {
         let settings = DisplaySettings::default();
         let radius_px = |px_per_point| {
-            let rule = settings.line_rule(px_per_point);
+            let rule = settings.line_rule(LineRule::default(), px_per_point);
             rule.radius_px(None, 2.0 * px_per_point)
         };
         assert_eq!(radius_px(2.0), 2.0 * radius_px(1.0));
@@ -300,9 +308,48 @@ mod tests {
             min_px: 1e3,
             ..DisplaySettings::default()
         };
-        let LineRule::World { min_px, max_px, .. } = settings.line_rule(1.0) else {
+        let rule = settings.line_rule(LineRule::default(), 1.0);
+        let LineRule::World { min_px, max_px, .. } = rule else {
             panic!("the thesis' rule is off");
         };
         assert!(min_px <= max_px);
     }
 }
+
+    #[test]
+    fn widths_suit_the_file_until_the_user_sets_one() {
+        let layout = |format: &str| {
+            let mut layout = guideway_layout::Layout::default();
+            layout.provenance.format = format.to_owned();
+            layout
+        };
+        let (plan, site) = (layout("DXF"), layout("LIF"));
+        let radius_px = |settings: &DisplaySettings, layout| {
+            // A detail of a drawing fills the canvas.
+            let rule = settings.line_rule(guideway_compose::usual_widths(layout), 1.0);
+            rule.radius_px(None, 1000.0)
+        };
+        let mut settings = DisplaySettings::default();
+        assert_eq!(radius_px(&settings, &plan), 0.5);
+        assert_eq!(radius_px(&settings, &site), 6.0);
+        settings.min_px = 4.0;
+        assert_eq!(radius_px(&settings, &plan), 2.0);
+        settings.width_m = Some(0.01);
+        for layout in [&plan, &site] {
+            assert_eq!(radius_px(&settings, layout), 5.0);
+        }
+    }
+
+    #[test]
+    fn settings_of_earlier_files_load_with_automatic_widths() {
+        let width_m = |text: &str| {
+            let settings: DisplaySettings = toml::from_str(text).unwrap();
+            settings.in_range().width_m
+        };
+        assert_eq!(width_m("width-m = 0.1\nmin-px = 1.5\n"), None);
+        assert_eq!(width_m("width-m = 0.35\n"), Some(0.35));
+        assert_eq!(width_m("width-m = 99.0\n"), None);
+        assert_eq!(width_m("min-px = 2.0\n"), None);
+        let text = toml::to_string(&DisplaySettings::default()).unwrap();
+        assert!(!text.contains("width-m"), "{text}");
+    }

@@ -281,7 +281,12 @@ impl SimulatedUser {
         let (mut paths, held_m) = paths_near_center(document, one_in).ok_or_else(no_path)?;
         let view = self.app.canvas.camera.view().ok_or_else(no_path)?;
         // Another path may lie over the held one.
-        let rule = self.app.settings.line_rule(self.app.canvas.px_per_point());
+        let widths = self.app.files.active().map(|layer| layer.widths);
+        let px_per_point = self.app.canvas.px_per_point();
+        let rule = self
+            .app
+            .settings
+            .line_rule(widths.unwrap_or_default(), px_per_point);
         let px_per_m = view.px_per_m();
         let hit = document.pick(rule, px_per_m, held_m, HIT_RADIUS_PX, usize::MAX);
         paths.extend(hit.map(|hit| hit.path));

@@ -64,9 +64,10 @@ pub(super) fn tool_context_of<'a>(
 ) -> Option<ToolContext<'a>> {
     let view = canvas.camera.view()?;
     Some(ToolContext {
+    let widths = layer.map(|layer| layer.widths).unwrap_or_default();
         view,
         document: layer.and_then(Layer::document),
-        line_rule: settings.line_rule(canvas.px_per_point()),
+        line_rule: settings.line_rule(widths, canvas.px_per_point()),
         picks_symbols: settings.has_symbols,
         grid_step_m: settings.grid_step_m(&view, canvas.px_per_point()),
     })

@@ -172,11 +172,13 @@ impl App {
         };
         self.show_drag();
         self.request_pictures();
-        let options = self.settings.mark_options(self.canvas.px_per_point());
+        let px_per_point = self.canvas.px_per_point();
         let (wait, repaint) = (self.edit_wait, &self.context.repaint);
         let active = self.files.active_index();
         for (index, layer) in self.files.layers_mut().iter_mut().enumerate() {
             if layer.is_visible {
+                let line_rule = self.settings.line_rule(layer.widths, px_per_point);
+                let options = self.settings.mark_options(line_rule, px_per_point);
                 let options = layer.look.mark_options(options, layer.document());
                 let wait = if index == active {
                     wait

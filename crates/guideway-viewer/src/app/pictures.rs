@@ -53,9 +53,11 @@ impl App {
         let Some(view) = self.canvas.picture_view() else {
             return;
         };
-        let style = self.settings.style(self.canvas.px_per_point());
+        let px_per_point = self.canvas.px_per_point();
         let layers = self.files.layers_mut().iter_mut();
         for layer in layers.filter(|layer| layer.is_visible) {
+            let line_rule = self.settings.line_rule(layer.widths, px_per_point);
+            let style = self.settings.style(line_rule);
             layer.picture.request(RenderRequest { view, style });
         }
         let LayerContext {

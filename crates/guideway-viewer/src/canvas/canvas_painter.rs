@@ -237,7 +237,7 @@ impl CanvasPainter<'_> {
         // Half the width of the lines, so that the outline shows on wide lines too.
         let radius_px = self
             .settings
-            .line_rule(scale)
+            .line_rule(layer.widths, scale)
             .radius_px(None, view.px_per_m());
         let stroke = |color| Stroke::new(MIN_OUTLINE_WIDTH.max((radius_px / scale) as f32), color);
         let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
@@ -300,6 +300,8 @@ impl CanvasPainter<'_> {
         }
         if let Some((route, driven)) = self.route {
             let vehicle = self.swept_areas.vehicle().ok();
+        let px_per_point = f64::from(self.screen.px_per_point);
+        let widths = self.files.active().map(|layer| layer.widths);
             tools.route(document, route, driven, vehicle);
         }
     }
@@ -318,11 +320,11 @@ impl CanvasPainter<'_> {
         let context = ToolContext {
             view: self.view,
             document: self.files.document(),
-            line_rule: self.settings.line_rule(f64::from(self.screen.px_per_point)),
-            picks_symbols: false,
-            grid_step_m: self
+            line_rule: self
                 .settings
-                .grid_step_m(&self.view, f64::from(self.screen.px_per_point)),
+                .line_rule(widths.unwrap_or_default(), px_per_point),
+            picks_symbols: false,
+            grid_step_m: self.settings.grid_step_m(&self.view, px_per_point),
         };
         let pointer_m = self
             .pointer_px

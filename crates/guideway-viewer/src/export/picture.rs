@@ -27,21 +27,25 @@ pub(crate) struct PictureContent<'a> {
 impl PictureContent<'_> {
     /// The request for this picture; `None` if no document is visible.
     pub(crate) fn request(&self) -> Option<PictureRequest> {
-        let scene = |layer: &Layer| Some(Arc::new(layer.document()?.scene().clone()));
+        let settings = self.settings;
+        let scene = |layer: &Layer| {
+            let scene = Arc::new(layer.document()?.scene().clone());
+            let line_rule = settings.line_rule(layer.widths, self.px_per_point);
+            Some((scene, line_rule))
+        };
         let with_paths = self.files.visible().filter(|layer| layer.look.has_paths);
         let mut scenes: Vec<_> = with_paths.filter_map(scene).collect();
-        let top = scenes.pop()?;
-        let settings = self.settings;
+        let (top, line_rule) = scenes.pop()?;
         let active = self.files.active().filter(|layer| layer.is_visible);
         let document = active.and_then(Layer::document);
         Some(PictureRequest {
             scene: top,
-            others: scenes,
+            others: scenes.into_iter().map(|(scene, _)| scene).collect(),
             view: self.view,
             px_per_point: self.px_per_point,
             style: Style {
                 background: settings.background(),
-                ..settings.style(self.px_per_point)
+                ..settings.style(line_rule)
             },
             floor_plan: self.floor_plan.visible().cloned(),
             floor_plan_opacity: f64::from(self.floor_plan.drawn_opacity()),
@@ -54,9 +58,10 @@ impl PictureContent<'_> {
     /// Arrows, symbols and labels of all visible files, and the scale bar.
     fn marks(&self) -> DrawList {
         let style = self.settings.decoration_style(self.px_per_point);
-        let options = self.settings.mark_options(self.px_per_point);
         let of_layer = |layer: &Layer| {
             let document = layer.document()?;
+            let line_rule = self.settings.line_rule(layer.widths, self.px_per_point);
+            let options = self.settings.mark_options(line_rule, self.px_per_point);
             let options = layer.look.mark_options(options, Some(document));
             let marks = marks(document, &self.view, &options);
             Some(marks.draw(&style, |at_px| at_px))

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use guideway_document::Document;
 use guideway_layout::shown_path;
-use guideway_scene::SceneOptions;
+use guideway_scene::{LineRule, SceneOptions};
 
 use super::draft_file::DraftFile;
 use super::layer_context::LayerContext;
@@ -25,6 +25,9 @@ pub(crate) struct Layer {
     pub(super) path: PathBuf,
     pub(crate) is_visible: bool,
     pub(crate) look: LayerLook,
+    /// The widths of its lines until the user sets one. They are those of the file, and not of what
+    /// the view shows as in pictures of the command: lines must not change while the view moves.
+    pub(crate) widths: LineRule,
     pub(crate) slot: DocumentSlot,
     pub(crate) picture: LayerPicture,
     pub(crate) tasks: BackgroundTasks,
@@ -76,6 +79,7 @@ impl Layer {
             path,
             is_visible: true,
             look: LayerLook::default(),
+            widths: LineRule::default(),
             slot: DocumentSlot::default(),
             tasks: BackgroundTasks::new(options.clone()),
             save: SaveState::default(),

@@ -69,6 +69,8 @@ mod tests {
     use crate::tests::services::lanes;
 
     #[test]
+    use guideway_scene::LineRule;
+
     fn arrows_are_left_out_where_lines_have_no_direction() {
         let has_arrows = |format: &str, has_nodes: bool| {
             let mut layout = lanes(1);
@@ -77,7 +79,7 @@ mod tests {
                 layout.retain_nodes_and_stations(&[], &[]);
             }
             let document = Document::new(layout.into(), &Default::default()).unwrap();
-            let all = DisplaySettings::default().mark_options(1.0);
+            let all = DisplaySettings::default().mark_options(LineRule::default(), 1.0);
             let look = LayerLook::default();
             look.mark_options(all, Some(&document)).arrows
         };

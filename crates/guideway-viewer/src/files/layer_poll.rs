@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use eframe::egui::Context;
+use guideway_compose::usual_widths;
 use guideway_document::{Document, ReplayProgress};
 
 use super::layer::{Layer, name_of};
@@ -40,6 +41,9 @@ impl Layer {
             }
         }
         self.poll_loader(&mut events);
+        if let Some(document) = self.document() {
+            self.widths = usual_widths(document.layout());
+        }
         self.poll_picture(ctx, context, &mut events);
         events
     }
@@ -89,6 +93,7 @@ impl Layer {
                 self.error = None;
                 // After a reload the old document stays in place until the new one is ready.
                 if self.document().is_none() {
+                    self.widths = usual_widths(scene.layout());
                     events.push(LayerEvent::Reached(LoadStage::Read));
                     events.push(LayerEvent::Appeared(scene.bounds()));
                     self.picture.set_scene(scene);

@@ -12,6 +12,9 @@ use crate::language::{t, translated};
 /// Columns that color every layout, beside its attributes.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
 
+/// Width of lines when the user first sets one, in meters.
+const FIRST_WIDTH_M: f64 = 0.05;
+
 /// Shows the section.
 pub(super) fn show(
     ui: &mut Ui,
@@ -36,8 +39,7 @@ pub(super) fn show(
         });
     ui.checkbox(&mut settings.is_thesis_rule, t("Line widths of the thesis"));
     ui.add_enabled_ui(!settings.is_thesis_rule, |ui| {
-        let width = Slider::new(&mut settings.width_m, 0.0..=MAX_WIDTH_M).suffix(" m");
-        ui.add(width.text(t("Width")));
+        show_width(ui, settings);
         let min_width = Slider::new(&mut settings.min_px, MIN_PX_RANGE).suffix(" pt");
         ui.add(min_width.text(t("Minimum")));
     });
@@ -69,6 +71,29 @@ pub(super) fn show(
         // A user who chooses colors wants to see them.
         settings.is_crowded = false;
         actions.push(Action::Recolor);
+    }
+}
+
+/// Shows the width of lines in meters, or that it is automatic.
+fn show_width(ui: &mut Ui, settings: &mut DisplaySettings) {
+    ui.horizontal(|ui| {
+        let is_given = settings.width_m.is_some();
+        optional(ui, t("Width"), is_given, |is_given| {
+            settings.width_m = is_given.then_some(FIRST_WIDTH_M);
+        });
+        if let Some(width_m) = &mut settings.width_m {
+            ui.add(Slider::new(width_m, 0.0..=MAX_WIDTH_M).suffix(" m"));
+        }
+    });
+}
+
+/// Shows whether a number is given, or else that it is automatic; `set` takes a change of that.
+fn optional(ui: &mut Ui, label: &str, mut is_given: bool, set: impl FnOnce(bool)) {
+    if ui.checkbox(&mut is_given, label).clicked() {
+        set(is_given);
+    }
+    if !is_given {
+        ui.weak(t("automatic"));
     }
 }
 

@@ -84,7 +84,7 @@ mod tests {
             ..Preferences::default()
         };
         preferences.look.has_arrows = false;
-        preferences.look.width_m = 0.35;
+        preferences.look.width_m = Some(0.35);
         preferences.window.position = Some([3.0, 40.0]);
         preferences
     }

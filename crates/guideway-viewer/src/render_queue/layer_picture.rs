@@ -68,6 +68,12 @@ pub(crate) enum PictureEvent {
 }
 
 impl LayerPicture {
+    /// The last request.
+    #[cfg(test)]
+    pub(crate) fn requested(&self) -> Option<&RenderRequest> {
+        self.requested.as_ref()
+    }
+
     /// Starts a render thread, which waits for a scene.
     pub(crate) fn start(
         services: &Arc<dyn AppServices>,

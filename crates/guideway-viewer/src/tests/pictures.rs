@@ -155,7 +155,8 @@ fn pictures_show_lines_arrows_and_names_as_large_as_the_screen_does() {
         window.wait(|app| app.is_settled());
         let view = window.app().canvas.camera.view().unwrap();
         let width = view.size().width();
-        let rule = window.app().settings.line_rule(f64::from(px_per_point));
+        let settings = &window.app().settings;
+        let rule = settings.line_rule(LineRule::default(), f64::from(px_per_point));
         let on_screen_px = rule.radius_px(None, view.px_per_m());
         let shown = sizes(&exported(&mut window, width), width.into());
         assert_eq!(shown[0], on_screen_px);

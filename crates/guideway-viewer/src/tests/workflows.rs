@@ -37,6 +37,7 @@ fn opened_file_fills_the_view_and_is_fully_reported() {
 #[test]
 fn picture_over_the_background_equals_the_render_command() {
     let layout = Arc::new(lanes(7));
+    let widths = guideway_compose::usual_widths(&layout);
     let settings = crate::display_settings::DisplaySettings {
         color_by: Some("speed".into()),
         ..crate::display_settings::DisplaySettings::default()
@@ -46,7 +47,7 @@ fn picture_over_the_background_equals_the_render_command() {
     let size = guideway_scene::FrameSize::new(300, 200).unwrap();
     let request = RenderRequest {
         view: guideway_scene::View::fit(size, scene.bounds()).unwrap(),
-        style: settings.style(1.0),
+        style: settings.style(settings.line_rule(widths, 1.0)),
     };
     let scene = Arc::new(scene);
     let services = TestServices::with([]);
