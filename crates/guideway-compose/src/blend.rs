@@ -9,6 +9,16 @@ pub(crate) fn composite_over(below: &Frame, frame: &mut Frame) {
     }
 }
 
+/// Makes every pixel of a frame more translucent, from opacity 0 to 1.
+pub(crate) fn fade(frame: &mut Frame, opacity: f64) {
+    if opacity >= 1.0 {
+        return;
+    }
+    for pixel in frame.pixels_mut() {
+        pixel[3] = (f64::from(pixel[3]) * opacity.max(0.0)).round() as u8;
+    }
+}
+
 /// Composites a color over another.
 pub(crate) fn over(above: [u8; 4], below: [u8; 4]) -> [u8; 4] {
     if above[3] == 255 || below[3] == 0 {

@@ -67,8 +67,8 @@ mod vector_file;
 mod widths;
 
 pub use backdrop::{
-    Backdrop, FloorPlan, FloorPlanKind, Image, PreparedFloorPlan, SweptAreas, SweptReport,
-    draw_swept_areas,
+    Backdrop, FloorPlan, FloorPlanKind, Image, OtherScene, PreparedFloorPlan, SweptAreas,
+    SweptReport, draw_swept_areas,
 };
 pub use crowd::is_crowd;
 pub use decorations::{Decorations, MarkedRoute};

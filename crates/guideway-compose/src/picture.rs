@@ -25,6 +25,8 @@ pub struct Picture {
     pub frame_m: Option<Bounds<f64>>,
     /// Line widths, shading and background of the paths.
     pub style: Style,
+    /// Opacity of the paths, from 0 to 1.
+    pub opacity: f64,
     /// The layers below the paths.
     pub backdrop: Backdrop,
     /// Shapes over the paths, in pixels, such as the marks of a window.
@@ -87,6 +89,7 @@ impl Picture {
             viewport: Viewport::fit(size),
             frame_m: None,
             style: Style::default(),
+            opacity: 1.0,
             backdrop: Backdrop::default(),
             overlay: DrawList::default(),
             decorations: Decorations::default(),

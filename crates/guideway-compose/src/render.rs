@@ -65,7 +65,10 @@ impl Picture {
         let visible = self.backdrop.visible(&self.scene, &view, &self.budget)?;
         let decorations = self.place_decorations(&view);
         let below = [&decorations.grid, &decorations.zones];
-        let mut backdrop = visible.prepare(below, method, &self.budget, &self.style, &view)?;
+        let backdrop = visible.prepare(below, method, &self.budget, &self.style, &view)?;
+        // Faded paths lie on the background, though there is nothing else below them.
+        let is_below = self.opacity < 1.0 || !backdrop.is_empty();
+        let mut backdrop = is_below.then_some(backdrop);
         let mut style = self.style;
         if backdrop.is_some() {
             style.background = see_through(&style);
@@ -95,6 +98,7 @@ impl Picture {
             covered.add(&frame, style.background);
             if let Some(backdrop) = &mut backdrop {
                 backdrop.render(&strip, background, &mut below)?;
+                blend::fade(&mut frame, self.opacity);
                 blend::composite_over(&below, &mut frame);
             }
             for marks in &marks {

@@ -12,7 +12,7 @@ use guideway_scene::{
 use guideway_spline::Point;
 
 use super::*;
-use crate::{Backdrop, Decorations, FloorPlan, KeptMethod, SweptAreas, VectorFormat};
+use crate::{Backdrop, Decorations, FloorPlan, KeptMethod, OtherScene, SweptAreas, VectorFormat};
 
 /// Method `cpu` with another limit on the pixels per strip.
 struct InStrips(usize);
@@ -143,7 +143,11 @@ fn with_backdrop() -> Picture {
             )),
             rows: Some(vec![0, 2]),
         }),
-        others: vec![scene],
+        others: vec![OtherScene {
+            scene,
+            line_rule: picture.style.line_rule,
+            opacity: 0.5,
+        }],
         ..Backdrop::default()
     };
     picture
@@ -251,4 +255,46 @@ fn density_is_an_image_with_its_legend_in_svg_and_pdf() {
     let bytes = std::fs::read(&pdf).unwrap();
     let has = |part: &[u8]| bytes.windows(part.len()).any(|bytes| bytes == part);
     assert!(has(b"/Image") && has(b"/SMask"));
+}
+
+/// A faded scene has the same pixels on top and below another one that is not seen.
+#[test]
+fn faded_paths_mix_with_the_background_in_all_formats() {
+    let mut picture = plain();
+    picture.overlay = DrawList::default();
+    let pixels = |picture: &Picture| {
+        let (frame, _) = picture.render_frame(&Cpu, &NoProgress).unwrap();
+        frame.pixels().to_vec()
+    };
+    let opaque = pixels(&picture);
+    assert!(opaque.iter().any(|pixel| pixel[0] < 50));
+    let mut faded = picture.clone();
+    faded.opacity = 0.25;
+    let mut below = picture.clone();
+    below.opacity = 0.0;
+    below.backdrop.others = vec![OtherScene {
+        scene: Arc::clone(&picture.scene),
+        line_rule: picture.style.line_rule,
+        opacity: 0.25,
+    }];
+    for picture in [&faded, &below] {
+        for (faded, opaque) in pixels(picture).iter().zip(&opaque) {
+            for (faded, opaque) in faded.iter().zip(opaque) {
+                let expected = 255.0 - 0.25 * (255.0 - f64::from(*opaque));
+                assert!((f64::from(*faded) - expected).abs() <= 2.0);
+            }
+        }
+        let written = |picture: &Picture, format| {
+            let mut bytes = Vec::new();
+            let fail = |_| unreachable!("memory takes all bytes");
+            picture.write_vector(format, &mut bytes, fail).unwrap();
+            String::from_utf8_lossy(&bytes).into_owned()
+        };
+        for (format, state) in [
+            (VectorFormat::Svg, "opacity=\"0.250\""),
+            (VectorFormat::Pdf, "/ca 0.25"),
+        ] {
+            assert!(written(picture, format).contains(state), "{format:?}");
+        }
+    }
 }

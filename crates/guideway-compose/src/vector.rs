@@ -18,7 +18,7 @@ pub(crate) struct WrittenPaths {
 }
 
 /// Writes the paths of a scene in draw order, or their density as an image.
-pub(crate) fn write_paths(
+fn write_paths(
     scene: &Scene,
     view: &View,
     style: &Style,
@@ -41,6 +41,24 @@ pub(crate) fn write_paths(
         drawn,
         density: None,
     })
+}
+
+/// Writes the paths of a scene as a group of this opacity, from 0 to 1; without a group if they are
+/// opaque.
+pub(crate) fn write_faded_paths(
+    scene: &Scene,
+    view: &View,
+    style: &Style,
+    opacity: f64,
+    page: &mut impl Page,
+) -> io::Result<WrittenPaths> {
+    if opacity >= 1.0 {
+        return write_paths(scene, view, style, page);
+    }
+    page.begin_group("paths", opacity.max(0.0))?;
+    let written = write_paths(scene, view, style, page)?;
+    page.end_group()?;
+    Ok(written)
 }
 
 /// Stroke width of a path in a view, in pixels.
@@ -108,6 +126,7 @@ mod tests {
             text: "lé漢".into(),
             left_middle_px: Point::new(40.0, 64.0),
             angle_rad: 0.0,
+            anchor: 0.0,
             char_width_px: 12.0,
             color: Rgba::BLACK,
             halo: Rgba::opaque(0, 255, 0),
@@ -125,4 +144,3 @@ mod tests {
         assert!(!text.contains("nothing"));
     }
 }
-            anchor: 0.0,

@@ -15,7 +15,7 @@ use crate::decorations::{PlacedDecorations, density_legend};
 use crate::page::Page;
 use crate::pdf::PdfPage;
 use crate::render::join;
-use crate::vector::{width_px, write_draw_list, write_paths};
+use crate::vector::{width_px, write_draw_list, write_faded_paths};
 use crate::{ComposeError, Picture, Rendered};
 
 /// A format of vector graphics.
@@ -204,7 +204,7 @@ impl Prepared<'_> {
         let (view, decorations) = (&self.view, &self.decorations);
         let below = [&decorations.grid, &decorations.zones];
         self.backdrop.write(below, view, style, page)?;
-        let paths = write_paths(scene, view, style, page)?;
+        let paths = write_faded_paths(scene, view, style, self.picture.opacity, page)?;
         for marks in [&self.picture.overlay, &decorations.marks] {
             write_draw_list(marks, "marks", page)?;
         }

@@ -113,6 +113,19 @@ impl DrawList {
         self.texts.extend(other.texts);
     }
 
+    /// The same drawing with colors that are more translucent, from opacity 0 to 1.
+    pub fn faded(mut self, opacity: f64) -> Self {
+        let fade = |color: &mut Rgba| {
+            color.a = (f64::from(color.a) * opacity.clamp(0.0, 1.0)).round() as u8;
+        };
+        self.fills.iter_mut().for_each(|fill| fade(&mut fill.color));
+        for text in &mut self.texts {
+            fade(&mut text.color);
+            fade(&mut text.halo);
+        }
+        self
+    }
+
     /// The same drawing for a picture that is larger by `factor`.
     pub fn scaled(mut self, factor: f64) -> Self {
         let polygons = self.fills.iter_mut().flat_map(|fill| &mut fill.polygons);
@@ -167,6 +180,7 @@ mod tests {
             text: "a".into(),
             left_middle_px: p(1.0, 2.0),
             angle_rad: 0.0,
+            anchor: 0.0,
             char_width_px: 7.0,
             color: Rgba::BLACK,
             halo: Rgba::WHITE,
@@ -179,5 +193,26 @@ mod tests {
             (p(3.0, 6.0), 21.0)
         );
     }
-}
+
+    #[test]
+    fn fading_is_of_fills_letters_and_halos() {
+        let mut list = DrawList::default();
+        list.fill_rectangle(Rgba::BLACK.with_opacity(0.5), p(1.0, 2.0), p(3.0, 5.0));
+        list.texts.push(TextLine {
+            text: "a".into(),
+            left_middle_px: p(1.0, 2.0),
+            angle_rad: 0.0,
             anchor: 0.0,
+            char_width_px: 7.0,
+            color: Rgba::BLACK,
+            halo: Rgba::WHITE,
+        });
+        let alphas = |list: &DrawList| {
+            let text = &list.texts[0];
+            [list.fills[0].color.a, text.color.a, text.halo.a]
+        };
+        assert_eq!(alphas(&list), [128, 255, 255]);
+        assert_eq!(alphas(&list.clone().faded(1.0)), alphas(&list));
+        assert_eq!(alphas(&list.faded(0.2)), [26, 51, 51]);
+    }
+}

@@ -224,6 +224,7 @@ fn picture(request: &PictureRequest) -> Picture {
     let mut picture = Picture::new(Arc::clone(&request.scene), request.view.size());
     picture.viewport = Viewport::of(&request.view);
     picture.style = request.style;
+    picture.opacity = request.opacity;
     picture.backdrop = Backdrop {
         floor_plan: request.floor_plan.clone(),
         floor_plan_fade: 1.0 - request.floor_plan_opacity,
@@ -237,7 +238,8 @@ fn picture(request: &PictureRequest) -> Picture {
     picture.overlay = request.marks.clone();
     // Levels and counts of density are explained too.
     let has_density = request.style.shading != Shading::Color;
-    picture.decorations.has_legend = has_density || request.scene.legend().is_some();
+    let has_colors = has_density || request.scene.legend().is_some();
+    picture.decorations.has_legend = has_colors && request.has_legend;
     picture.decorations.px_per_point = Some(request.px_per_point);
     picture
 }
@@ -278,6 +280,7 @@ mod tests {
         let size = FrameSize::new(1200, 900).unwrap();
         PictureRequest {
             scene: Arc::new(scene),
+            opacity: 1.0,
             others: Vec::new(),
             view: View::new(size, Point::new(6.0, 0.0), 20.0).unwrap(),
             px_per_point: 2.0,
@@ -292,6 +295,7 @@ mod tests {
             swept: None,
             grid: DrawList::default(),
             marks: DrawList::default(),
+            has_legend: true,
         }
     }
 
@@ -313,6 +317,14 @@ mod tests {
         let text = error.to_string();
         assert!(text.contains("cannot read the image"), "{text}");
         assert!(!text.contains("UTF-8"), "{text}");
+    }
+
+    #[test]
+    fn opacity_of_the_paths_is_that_of_the_request() {
+        let mut request = request(Shading::Color);
+        assert!(!svg(&request).contains("<g opacity"));
+        request.opacity = 0.5;
+        assert!(svg(&request).contains("<g opacity=\"0.500\""));
     }
 
     #[test]
@@ -341,3 +353,8 @@ mod tests {
         assert!(has_legend(true).pixels() != has_legend(false).pixels());
     }
 }
+        let without = PictureRequest {
+            has_legend: false,
+            ..request.clone()
+        };
+        assert!(!svg(&without).contains("paths per pixel"));

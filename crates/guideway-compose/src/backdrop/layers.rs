@@ -6,17 +6,17 @@ use std::sync::Arc;
 use guideway_cpu::Areas;
 use guideway_scene::Budget;
 use guideway_scene::{
-    Cancel, DrawList, Frame, FrameSize, Method, Prepared, Rgba, Scene, Strip, Style, View,
+    Cancel, DrawList, Frame, FrameSize, LineRule, Method, Prepared, Rgba, Scene, Strip, Style, View,
 };
 use guideway_spline::Bounds;
 
 use super::floor_plan::{FloorPlan, PreparedFloorPlan};
 use super::swept::{self, SweptAreas, SweptReport, VisibleAreas};
 use crate::ComposeError;
-use crate::blend::composite_over;
+use crate::blend::{composite_over, fade};
 use crate::overlay::PreparedOverlay;
 use crate::page::Page;
-use crate::vector::{write_draw_list, write_paths};
+use crate::vector::{write_draw_list, write_faded_paths};
 
 /// The layers below the paths of a picture, bottom first.
 #[derive(Clone, Default)]
@@ -30,7 +30,28 @@ pub struct Backdrop {
     /// The areas that a vehicle sweeps along paths of the topmost scene.
     pub swept: Option<SweptAreas>,
     /// Other scenes, bottom first.
-    pub others: Vec<Arc<Scene>>,
+    pub others: Vec<OtherScene>,
+}
+
+/// A scene below the paths of a picture.
+#[derive(Clone)]
+pub struct OtherScene {
+    /// Its paths.
+    pub scene: Arc<Scene>,
+    /// Their widths.
+    pub line_rule: LineRule,
+    /// Their opacity, from 0 to 1.
+    pub opacity: f64,
+}
+
+impl OtherScene {
+    /// The style of its paths among the others of a picture.
+    fn style(&self, of_picture: &Style) -> Style {
+        Style {
+            line_rule: self.line_rule,
+            ..*of_picture
+        }
+    }
 }
 
 impl Backdrop {
@@ -39,7 +60,7 @@ impl Backdrop {
         let plan = self.floor_plan.as_ref().and_then(FloorPlan::bounds);
         let swept = self.swept.as_ref();
         let swept = swept.and_then(|swept| swept::bounds(scene, swept.vehicle));
-        let others = self.others.iter().filter_map(|other| other.bounds());
+        let others = self.others.iter().filter_map(|other| other.scene.bounds());
         let all = [plan, swept].into_iter().flatten().chain(others);
         all.reduce(Bounds::union)
     }
@@ -72,8 +93,7 @@ pub(crate) struct VisibleBackdrop<'b> {
 }
 
 impl VisibleBackdrop<'_> {
-    /// Prepares the layers for rendering; `None` if the backdrop is empty. Grid and zones are drawn
-    /// below the lines of the backdrop.
+    /// Prepares the layers for rendering. Grid and zones are drawn below the lines of the backdrop.
     pub(crate) fn prepare(
         &self,
         [grid, zones]: [&DrawList; 2],
@@ -81,13 +101,23 @@ impl VisibleBackdrop<'_> {
         budget: &Budget,
         style: &Style,
         view: &View,
-    ) -> Result<Option<PreparedBackdrop>, ComposeError> {
+    ) -> Result<PreparedBackdrop, ComposeError> {
         let floor_plan = self.backdrop.floor_plan.as_ref();
         let floor_plan = floor_plan.map(|plan| plan.prepare(budget));
         let lines = [grid, zones, &self.backdrop.lines].into_iter();
         let lines = lines.filter(|lines| !lines.is_empty());
         let others = self.backdrop.others.iter();
-        let others = others.map(|other| method.prepare(Arc::clone(other), budget));
+        let style = Style {
+            background: Rgba::from_u32(0),
+            ..*style
+        };
+        let others = others.map(|other| {
+            Ok::<_, ComposeError>(PreparedScene {
+                paths: method.prepare(Arc::clone(&other.scene), budget)?,
+                style: other.style(&style),
+                opacity: other.opacity,
+            })
+        });
         let prepared = PreparedBackdrop {
             floor_plan: floor_plan.transpose()?,
             floor_plan_fade: self.backdrop.floor_plan_fade,
@@ -96,13 +126,9 @@ impl VisibleBackdrop<'_> {
                 .collect(),
             areas: self.areas.as_ref().map(VisibleAreas::outlines),
             others: others.collect::<Result<_, _>>()?,
-            style: Style {
-                background: Rgba::from_u32(0),
-                ..*style
-            },
             scratch: Frame::new(FrameSize::new(1, 1)?),
         };
-        Ok((!prepared.is_empty()).then_some(prepared))
+        Ok(prepared)
     }
 
     /// Writes the layers as elements of a page.
@@ -130,7 +156,8 @@ impl VisibleBackdrop<'_> {
             areas.write(view, page)?;
         }
         for other in &self.backdrop.others {
-            write_paths(other, view, style, page)?;
+            let style = other.style(style);
+            write_faded_paths(&other.scene, view, &style, other.opacity, page)?;
         }
         Ok(())
     }
@@ -147,15 +174,21 @@ pub(crate) struct PreparedBackdrop {
     floor_plan_fade: f64,
     lines: Vec<PreparedOverlay>,
     areas: Option<Areas>,
-    others: Vec<Box<dyn Prepared>>,
-    /// Style of the other scenes: on a transparent background.
-    style: Style,
+    others: Vec<PreparedScene>,
     /// One of the other scenes, before it is composited.
     scratch: Frame,
 }
 
+/// A scene of a backdrop, with its style on a transparent background.
+struct PreparedScene {
+    paths: Box<dyn Prepared>,
+    style: Style,
+    opacity: f64,
+}
+
 impl PreparedBackdrop {
-    fn is_empty(&self) -> bool {
+    /// Returns `true` if there is no layer.
+    pub(crate) fn is_empty(&self) -> bool {
         self.floor_plan.is_none()
             && self.lines.is_empty()
             && self.areas.is_none()
@@ -187,7 +220,13 @@ impl PreparedBackdrop {
             swept::draw(areas, strip, frame);
         }
         for other in &mut self.others {
-            other.render_strip(strip, &self.style, &Cancel::default(), &mut self.scratch)?;
+            let PreparedScene {
+                paths,
+                style,
+                opacity,
+            } = other;
+            paths.render_strip(strip, style, &Cancel::default(), &mut self.scratch)?;
+            fade(&mut self.scratch, *opacity);
             composite_over(frame, &mut self.scratch);
             std::mem::swap(frame, &mut self.scratch);
         }

@@ -17,6 +17,6 @@ mod swept;
 
 pub use floor_plan::{FloorPlan, FloorPlanKind, PreparedFloorPlan};
 pub use image::Image;
-pub use layers::Backdrop;
 pub(crate) use layers::VisibleBackdrop;
+pub use layers::{Backdrop, OtherScene};
 pub use swept::{SweptAreas, SweptReport, draw_swept_areas};

@@ -1,6 +1,7 @@
 //! Steps that all parts of the application take: edit, recolor, tell the user.
 
 use eframe::egui::Context;
+use guideway_document::decorations::MarkedKinds;
 
 use super::state::App;
 use crate::canvas::Canvas;
@@ -63,12 +64,17 @@ pub(super) fn tool_context_of<'a>(
     settings: &DisplaySettings,
 ) -> Option<ToolContext<'a>> {
     let view = canvas.camera.view()?;
-    Some(ToolContext {
     let widths = layer.map(|layer| layer.widths).unwrap_or_default();
+    let shown = layer.map_or_else(MarkedKinds::default, |layer| layer.look.kinds());
+    Some(ToolContext {
         view,
         document: layer.and_then(Layer::document),
         line_rule: settings.line_rule(widths, canvas.px_per_point()),
-        picks_symbols: settings.has_symbols,
+        picks: MarkedKinds {
+            paths: shown.paths,
+            nodes: shown.nodes && settings.has_symbols,
+            stations: shown.stations && settings.has_symbols,
+        },
         grid_step_m: settings.grid_step_m(&view, canvas.px_per_point()),
     })
 }

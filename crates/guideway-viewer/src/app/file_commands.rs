@@ -135,7 +135,7 @@ impl App {
     }
 
     /// Everything that the canvas shows; `None` if no document is visible.
-    fn picture(&self) -> Option<PictureRequest> {
+    pub(crate) fn picture(&self) -> Option<PictureRequest> {
         let content = PictureContent {
             view: self.canvas.camera.view()?,
             px_per_point: self.canvas.px_per_point(),

@@ -11,13 +11,17 @@ use crate::language::t;
 use crate::network_draft::Drafted;
 use crate::panels::BottomView;
 use crate::route::{FoundRoute, place_of};
-use crate::tools::{MAX_HOVER_CANDIDATES, OtherHit, PointerEvent, Tool};
+use crate::tools::{HoverTarget, MAX_HOVER_CANDIDATES, OtherHit, PointerEvent, Tool};
 
 /// Most stations that are searched on each movement of the pointer: one after the other.
 const MAX_SEARCHED_STATIONS: usize = 20_000;
 
-fn has_few_stations(document: &Document) -> bool {
-    document.layout().stations.len() <= MAX_SEARCHED_STATIONS
+/// Returns `true` if nodes and stations of a file are drawn in the view: where there are too many to
+/// draw them, they are also too many to search on each movement of the pointer.
+fn draws_symbols(layer: &Layer) -> bool {
+    let has_few = |document: &Document| document.layout().stations.len() <= MAX_SEARCHED_STATIONS;
+    let overlay = layer.slot.overlay().last();
+    overlay.is_some_and(|overlay| !overlay.marks.left_out) && layer.document().is_some_and(has_few)
 }
 
 impl App {
@@ -44,18 +48,13 @@ impl App {
         }
     }
 
-    /// Tells the tools which station or node is under the pointer, where such symbols are drawn:
-    /// where there are too many to draw them, they are also too many to search.
+    /// Tells the tools which station or node is under the pointer, where such symbols are drawn.
     pub(super) fn hover_symbol(&mut self, event: &PointerEvent) {
         let PointerEvent::Hover(at_px) = *event else {
             return;
         };
         let layer = self.files.active().filter(|layer| layer.is_visible);
-        let is_drawn = layer.is_some_and(|layer| {
-            let overlay = layer.slot.overlay().last();
-            overlay.is_some_and(|overlay| !overlay.marks.left_out)
-                && layer.document().is_some_and(has_few_stations)
-        });
+        let is_drawn = layer.is_some_and(draws_symbols);
         let at_px = at_px.filter(|_| is_drawn && !self.tools.has_gesture());
         let context = tool_context_of(layer, &self.canvas, &self.settings);
         let symbol = at_px
@@ -146,8 +145,7 @@ impl App {
     fn others(&self) -> impl Iterator<Item = (usize, &Layer)> {
         let active = self.files.active_index();
         let all = self.files.layers().iter().enumerate();
-        let is_shown = |layer: &Layer| layer.is_visible && layer.look.has_paths;
-        all.filter(move |(index, layer)| *index != active && is_shown(layer))
+        all.filter(move |(index, layer)| *index != active && layer.is_visible)
     }
 
     /// Returns `true` if something of the active file is at a pixel, or may be.
@@ -169,10 +167,16 @@ impl App {
         if self.is_active_hit(at_px, max_candidates) {
             return None;
         }
+        let hovers_symbols = self.tools.tool() == Tool::Select;
         others.find_map(|(file, layer)| {
             let context = tool_context_of(Some(layer), &self.canvas, &self.settings)?;
-            let hit = context.pick(at_px, max_candidates)?;
-            Some(OtherHit { file, hit })
+            let symbol =
+                (hovers_symbols && draws_symbols(layer)).then(|| context.pick_symbol(at_px));
+            let target = match symbol.flatten() {
+                Some(symbol) => HoverTarget::Symbol(symbol),
+                None => HoverTarget::Path(context.pick(at_px, max_candidates)?),
+            };
+            Some(OtherHit { file, target })
         })
     }
 

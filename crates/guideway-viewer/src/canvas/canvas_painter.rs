@@ -1,16 +1,14 @@
 //! Paints the canvas from its parts, bottom first: background, floor plan, grid, swept areas,
 //! layouts, marks, gesture, scale bar, legend, messages.
 
-use std::borrow::Cow;
-
 use eframe::egui::{
     Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureId, Vec2, pos2,
 };
 use guideway_document::decorations::{
-    Corner, DecorationStyle, handles, hide_covered_texts, legend, outline, scale_bar,
+    Corner, DecorationStyle, MarkedKinds, handles, hide_covered_texts, outline, scale_bar,
 };
-use guideway_document::{Document, PathSet};
-use guideway_scene::{DrawList, Legend, View};
+use guideway_document::{Document, Element, PathSet};
+use guideway_scene::{DrawList, View};
 use guideway_spline::Point;
 
 use super::draft::Draft;
@@ -20,6 +18,7 @@ use super::paint_gesture::{
     HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_glowing, paint_handles,
     paint_outline, paint_rings,
 };
+use super::paint_legends::{legends, shown_legends};
 use super::paint_moving::paint_moving;
 use super::paint_network::paint_network;
 use super::paint_snap::paint_snap;
@@ -31,10 +30,10 @@ use crate::compare::Changed;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::{Layer, OpenFiles};
-use crate::language::{t, translated};
+use crate::language::translated;
 use crate::network_draft::Drafted;
 use crate::route::FoundRoute;
-use crate::tools::{Gesture, OtherHit, Tool, ToolContext, Tools};
+use crate::tools::{Gesture, HoverTarget, OtherHit, Tool, ToolContext, Tools};
 
 const MESSAGE_POINTS: f32 = 15.0;
 /// Opacity of the lines of what belongs to a selected level or vehicle type.
@@ -60,29 +59,6 @@ pub(crate) struct CanvasPainter<'a> {
     pub(crate) changes: Option<(&'a Document, &'a Changed)>,
     /// The network that the active file would become.
     pub(crate) network: Option<&'a Drafted>,
-}
-
-/// The meaning of the colors of the active file as it is drawn: of the column, or of the density.
-pub(crate) fn shown_colors<'a>(
-    files: &'a OpenFiles,
-    settings: &DisplaySettings,
-) -> Option<&'a Legend> {
-    match settings.shows_density() {
-        true => files.active()?.picture.shown()?.report.density.as_ref(),
-        false => files.document()?.scene().legend(),
-    }
-}
-
-/// A legend with its title in the language of the window, if the title is not a name of the file.
-fn titled(legend: &Legend) -> Cow<'_, Legend> {
-    let title = t(&legend.column);
-    match title == legend.column {
-        true => Cow::Borrowed(legend),
-        false => Cow::Owned(Legend {
-            column: title.to_owned(),
-            ..legend.clone()
-        }),
-    }
 }
 
 impl CanvasPainter<'_> {
@@ -117,13 +93,8 @@ impl CanvasPainter<'_> {
         self.paint_findings(painter);
         self.paint_gesture(painter);
         list(scale_bar(&self.view, &style, Corner::LowerLeft));
-        let colors = shown_colors(self.files, self.settings);
-        let corner = Corner::UpperLeft;
-        let colors = colors.and_then(|colors| {
-            let colors = titled(colors);
-            legend(&colors, self.view.size(), 0.0, corner, &style)
-        });
-        if let Some((colors, _)) = colors {
+        let shown = shown_legends(self.files, self.settings);
+        for colors in legends(&shown, self.view.size(), &style) {
             list(colors);
         }
         self.paint_plan_task(painter);
@@ -184,7 +155,8 @@ impl CanvasPainter<'_> {
             let overlay = layer.slot.overlay().last();
             overlay.map_or_else(DrawList::default, |overlay| {
                 let place = |pixel| self.placed(&overlay.view, pixel);
-                overlay.marks.draw(style, place)
+                let marks = overlay.marks.draw(style, place);
+                marks.faded(f64::from(layer.look.opacity))
             })
         };
         let mut marks: Vec<DrawList> = self.files.visible().map(of_layer).collect();
@@ -209,11 +181,17 @@ impl CanvasPainter<'_> {
         }
         let hit = self.other_hit.and_then(|other| {
             let document = self.files.layers().get(other.file)?.document()?;
-            Some((document, other.hit.path))
+            Some((document, &other.target))
         });
-        if let Some((document, path)) = hit {
-            let lines = outline(document, &PathSet::from_iter([path]), &self.view);
-            paint_glowing(painter, &lines, stroke, |pixel| self.screen.point(pixel));
+        match hit {
+            Some((document, HoverTarget::Path(hit))) => {
+                let lines = outline(document, &PathSet::from_iter([hit.path]), &self.view);
+                paint_glowing(painter, &lines, stroke, |pixel| self.screen.point(pixel));
+            }
+            Some((document, HoverTarget::Symbol(symbol))) => {
+                self.paint_hovered_symbol(painter, document, *symbol);
+            }
+            None => {}
         }
     }
 
@@ -259,10 +237,8 @@ impl CanvasPainter<'_> {
             paint_glowing(painter, &lines, hovered, |pixel| screen.point(pixel));
         }
         paint_rings(painter, &overlay.symbols, SELECTION_COLOR, to_screen);
-        let symbol = self.tools.hovered_symbol(document);
-        if let Some(bounds) = symbol.and_then(|symbol| document?.bounds_of(symbol)) {
-            let at_px = view.pixel_from_world(bounds.center());
-            paint_rings(painter, &[at_px], HOVER_COLOR, |pixel| screen.point(pixel));
+        if let (Some(symbol), Some(document)) = (self.tools.hovered_symbol(document), document) {
+            self.paint_hovered_symbol(painter, document, symbol);
         }
         if let Some(members) = &overlay.of_selected {
             let thin = stroke(SELECTION_COLOR.gamma_multiply(MEMBERS_OPACITY));
@@ -274,6 +250,15 @@ impl CanvasPainter<'_> {
         }
         if let (Tool::Points, Some(document)) = (self.tools.tool(), document) {
             paint_handles(painter, screen, &handles(document, view));
+        }
+    }
+
+    /// Paints a ring around the station or node under the pointer.
+    fn paint_hovered_symbol(&self, painter: &Painter, document: &Document, symbol: Element) {
+        if let Some(bounds) = document.bounds_of(symbol) {
+            let at_px = self.view.pixel_from_world(bounds.center());
+            let to_screen = |pixel| self.screen.point(pixel);
+            paint_rings(painter, &[at_px], HOVER_COLOR, to_screen);
         }
     }
 
@@ -300,8 +285,6 @@ impl CanvasPainter<'_> {
         }
         if let Some((route, driven)) = self.route {
             let vehicle = self.swept_areas.vehicle().ok();
-        let px_per_point = f64::from(self.screen.px_per_point);
-        let widths = self.files.active().map(|layer| layer.widths);
             tools.route(document, route, driven, vehicle);
         }
     }
@@ -317,13 +300,15 @@ impl CanvasPainter<'_> {
     }
 
     fn paint_gesture(&self, painter: &Painter) {
+        let px_per_point = f64::from(self.screen.px_per_point);
+        let widths = self.files.active().map(|layer| layer.widths);
         let context = ToolContext {
             view: self.view,
             document: self.files.document(),
             line_rule: self
                 .settings
                 .line_rule(widths.unwrap_or_default(), px_per_point),
-            picks_symbols: false,
+            picks: MarkedKinds::default(),
             grid_step_m: self.settings.grid_step_m(&self.view, px_per_point),
         };
         let pointer_m = self

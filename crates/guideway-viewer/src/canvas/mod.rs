@@ -16,6 +16,7 @@ mod draft;
 mod paint_draw_list;
 mod paint_findings;
 mod paint_gesture;
+mod paint_legends;
 mod paint_moving;
 mod paint_network;
 mod paint_snap;
@@ -27,11 +28,10 @@ mod shape_text;
 
 pub(crate) use canvas_input::{Canvas, CanvasPlace};
 pub(crate) use canvas_painter::CanvasPainter;
-#[cfg(test)]
-pub(crate) use canvas_painter::shown_colors;
 pub(crate) use paint_findings::severity_color;
 #[cfg(test)]
 pub(crate) use paint_gesture::{HOVER_COLOR, SELECTION_COLOR};
+pub(crate) use paint_legends::{legends, shown_legends};
 pub(crate) use paint_network::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 pub(crate) use paint_tools::change_color;
 pub(crate) use shape_text::shape_text;

@@ -3,11 +3,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway_document::decorations::{Corner, hide_covered_texts, marks, scale_bar};
+use guideway_compose::OtherScene;
+use guideway_document::decorations::{
+    Corner, DecorationStyle, hide_covered_texts, marks, scale_bar,
+};
 use guideway_layout::{UserError, shown_path};
 use guideway_scene::{DrawList, FrameSize, RenderError, Style, View};
 
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
+use crate::canvas::{legends, shown_legends};
 use crate::display_settings::DisplaySettings;
 use crate::files::{Layer, OpenFiles};
 use crate::language::say;
@@ -29,50 +33,68 @@ impl PictureContent<'_> {
     pub(crate) fn request(&self) -> Option<PictureRequest> {
         let settings = self.settings;
         let scene = |layer: &Layer| {
-            let scene = Arc::new(layer.document()?.scene().clone());
-            let line_rule = settings.line_rule(layer.widths, self.px_per_point);
-            Some((scene, line_rule))
+            Some(OtherScene {
+                scene: Arc::new(layer.document()?.scene().clone()),
+                line_rule: settings.line_rule(layer.widths, self.px_per_point),
+                opacity: f64::from(layer.look.opacity),
+            })
         };
         let with_paths = self.files.visible().filter(|layer| layer.look.has_paths);
         let mut scenes: Vec<_> = with_paths.filter_map(scene).collect();
-        let (top, line_rule) = scenes.pop()?;
+        let top = scenes.pop()?;
         let active = self.files.active().filter(|layer| layer.is_visible);
         let document = active.and_then(Layer::document);
+        // Counts of density are known after rendering: their legend is that of the topmost scene.
+        let shown = match settings.shows_density() {
+            true => Vec::new(),
+            false => shown_legends(self.files, settings),
+        };
+        let legends = match shown.len() > 1 {
+            true => legends(&shown, self.view.size(), &self.decoration_style()),
+            false => Vec::new(),
+        };
         Some(PictureRequest {
-            scene: top,
-            others: scenes.into_iter().map(|(scene, _)| scene).collect(),
+            scene: top.scene,
+            opacity: top.opacity,
+            others: scenes,
             view: self.view,
             px_per_point: self.px_per_point,
             style: Style {
                 background: settings.background(),
-                ..settings.style(line_rule)
+                ..settings.style(top.line_rule)
             },
             floor_plan: self.floor_plan.visible().cloned(),
             floor_plan_opacity: f64::from(self.floor_plan.drawn_opacity()),
             swept: document.and_then(|document| self.swept_areas.areas(document)),
             grid: settings.grid(&self.view, self.px_per_point),
-            marks: self.marks(),
+            marks: self.marks(&legends),
+            has_legend: legends.is_empty(),
         })
     }
 
-    /// Arrows, symbols and labels of all visible files, and the scale bar.
-    fn marks(&self) -> DrawList {
-        let style = self.settings.decoration_style(self.px_per_point);
+    fn decoration_style(&self) -> DecorationStyle {
+        self.settings.decoration_style(self.px_per_point)
+    }
+
+    /// Arrows, symbols and labels of all visible files, the scale bar, and these legends.
+    fn marks(&self, legends: &[DrawList]) -> DrawList {
+        let style = self.decoration_style();
         let of_layer = |layer: &Layer| {
             let document = layer.document()?;
             let line_rule = self.settings.line_rule(layer.widths, self.px_per_point);
             let options = self.settings.mark_options(line_rule, self.px_per_point);
             let options = layer.look.mark_options(options, Some(document));
             let marks = marks(document, &self.view, &options);
-            Some(marks.draw(&style, |at_px| at_px))
+            let marks = marks.draw(&style, |at_px| at_px);
+            Some(marks.faded(f64::from(layer.look.opacity)))
         };
         let mut drawings: Vec<_> = self.files.visible().filter_map(of_layer).collect();
         hide_covered_texts(&mut drawings);
         let mut list = DrawList::default();
-        for drawing in drawings {
+        drawings.push(scale_bar(&self.view, &style, Corner::LowerLeft));
+        for drawing in drawings.into_iter().chain(legends.iter().cloned()) {
             list.append(drawing);
         }
-        list.append(scale_bar(&self.view, &style, Corner::LowerLeft));
         list
     }
 }
@@ -111,6 +133,10 @@ fn scaled_to(picture: PictureRequest, width_px: u32) -> Result<PictureRequest, R
     let factor = f64::from(width_px) / f64::from(view.size().width());
     let height_px = (f64::from(view.size().height()) * factor).round().max(1.0);
     let size = FrameSize::new(width_px, height_px as u32)?;
+    let scaled = |other: OtherScene| OtherScene {
+        line_rule: other.line_rule.scaled(factor),
+        ..other
+    };
     Ok(PictureRequest {
         view: View::new(size, view.center_m(), view.px_per_m() * factor)?,
         px_per_point: picture.px_per_point * factor,
@@ -118,6 +144,7 @@ fn scaled_to(picture: PictureRequest, width_px: u32) -> Result<PictureRequest, R
             line_rule: picture.style.line_rule.scaled(factor),
             ..picture.style
         },
+        others: picture.others.into_iter().map(scaled).collect(),
         grid: picture.grid.scaled(factor),
         marks: picture.marks.scaled(factor),
         ..picture
@@ -139,6 +166,7 @@ mod tests {
         grid.fill_rectangle(Rgba::BLACK, Point::new(1.0, 2.0), Point::new(3.0, 4.0));
         PictureRequest {
             scene: Arc::new(scene),
+            opacity: 1.0,
             others: Vec::new(),
             view: View::new(size, Point::new(5.0, 6.0), 20.0).unwrap(),
             px_per_point: 1.0,
@@ -148,6 +176,7 @@ mod tests {
             swept: None,
             grid,
             marks: DrawList::default(),
+            has_legend: true,
         }
     }
 

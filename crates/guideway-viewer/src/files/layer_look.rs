@@ -7,7 +7,7 @@ use guideway_scene::{Rgba, SceneOptions};
 /// The look of one open file, beside the display settings of all.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LayerLook {
-    /// Opacity of the paths, from 0 to 1.
+    /// Opacity of paths and marks, from 0 to 1.
     pub(crate) opacity: f32,
     /// Color of paths without a color of their own; `None` takes that of the display settings.
     pub(crate) color: Option<Rgba>,
@@ -44,12 +44,17 @@ impl LayerLook {
         MarkOptions {
             arrows: all.arrows && has_arrows,
             labels: all.labels.filter(|_| self.has_names),
-            of: MarkedKinds {
-                paths: self.has_paths,
-                nodes: self.has_nodes,
-                stations: self.has_stations,
-            },
+            of: self.kinds(),
             ..all
+        }
+    }
+
+    /// The kinds of elements that are shown.
+    pub(crate) fn kinds(&self) -> MarkedKinds {
+        MarkedKinds {
+            paths: self.has_paths,
+            nodes: self.has_nodes,
+            stations: self.has_stations,
         }
     }
 
@@ -64,13 +69,13 @@ impl LayerLook {
 
 #[cfg(test)]
 mod tests {
+    use guideway_scene::LineRule;
+
     use super::*;
     use crate::display_settings::DisplaySettings;
     use crate::tests::services::lanes;
 
     #[test]
-    use guideway_scene::LineRule;
-
     fn arrows_are_left_out_where_lines_have_no_direction() {
         let has_arrows = |format: &str, has_nodes: bool| {
             let mut layout = lanes(1);

@@ -126,7 +126,7 @@ impl LayerRow {
             }
         });
         ui.horizontal(|ui| {
-            slider(ui, &mut look.opacity).on_hover_text(t("Opacity of the paths"));
+            slider(ui, &mut look.opacity).on_hover_text(t("Opacity of this file"));
             show_color(ui, look, settings);
         });
         let document = layer.document()?;

@@ -12,7 +12,7 @@ use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::OpenFiles;
 use crate::language::{direction_name, grouped, say, t};
-use crate::tools::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
+use crate::tools::{HIT_RADIUS_PX, HoverTarget, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
 
 /// Size of a point of a screen at 96 points per inch, in meters.
 const POINT_M: f64 = 0.0254 / 96.0;
@@ -81,15 +81,21 @@ impl StatusBar<'_> {
         Some(finding_text(finding))
     }
 
-    /// The path under the pointer in another file.
+    /// The element under the pointer in another file.
     fn hovered_elsewhere(&self, other: &OtherHit) -> Option<String> {
         let layer = self.files.layers().get(other.file)?;
         let document = layer.document()?;
-        let (path, name) = (hovered(document, &other.hit), layer.name());
+        let element = match &other.target {
+            HoverTarget::Symbol(symbol) if document.contains(*symbol) => {
+                hovered_symbol(document, *symbol)
+            }
+            HoverTarget::Symbol(_) => return None,
+            HoverTarget::Path(hit) => hovered(document, hit),
+        };
         Some(say!(
             "{path}, in {name} (a click edits this file)",
-            path,
-            name
+            path = element,
+            name = layer.name()
         ))
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_compose::FloorPlan;
+use guideway_compose::{FloorPlan, OtherScene};
 use guideway_envelope::EnvelopeSource;
 use guideway_scene::{DrawList, Scene, Style, View};
 
@@ -12,13 +12,15 @@ use guideway_scene::{DrawList, Scene, Style, View};
 pub struct PictureRequest {
     /// The topmost scene.
     pub scene: Arc<Scene>,
+    /// Opacity of its paths, from 0 to 1.
+    pub opacity: f64,
     /// The scenes below it, from the bottom.
-    pub others: Vec<Arc<Scene>>,
+    pub others: Vec<OtherScene>,
     /// Center, scale and size of the picture.
     pub view: View,
     /// Pixels of the picture per point of the screen: the scale of texts.
     pub px_per_point: f64,
-    /// Line widths, shading and background.
+    /// Line widths of the topmost scene, shading and background.
     pub style: Style,
     /// Floor plan at the bottom, as returned by [`AppServices::read_floor_plan`].
     ///
@@ -30,8 +32,10 @@ pub struct PictureRequest {
     pub swept: Option<SweptAreas>,
     /// The grid, below all paths.
     pub grid: DrawList,
-    /// Arrows, symbols, names and scale bar, above all paths.
+    /// Arrows, symbols, names and scale bar, above all paths; the legends of several scenes too.
     pub marks: DrawList,
+    /// True if the colors of the topmost scene get a legend.
+    pub has_legend: bool,
 }
 
 /// The areas that one vehicle sweeps along some paths.

@@ -240,7 +240,7 @@ fn exported_picture_has_all_visible_parts() {
     };
     let all = export(&mut window);
     let counts = |e: &PictureRequest| {
-        let others = e.others.iter().map(|scene| scene.path_count());
+        let others = e.others.iter().map(|other| other.scene.path_count());
         (e.scene.path_count(), others.collect::<Vec<_>>())
     };
     assert_eq!(counts(&all), (3, vec![2]));

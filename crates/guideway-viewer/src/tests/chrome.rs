@@ -8,7 +8,7 @@ use egui_kittest::kittest::{By, NodeT, Queryable};
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
-use crate::canvas::shown_colors;
+use crate::canvas::shown_legends;
 use crate::display_settings::ThemeChoice;
 use crate::language::Language;
 use crate::panels::SideTab;
@@ -164,8 +164,8 @@ fn legend_is_about_the_colors_that_are_drawn() {
     let mut window = TestWindow::showing(layout);
     let title = |window: &mut TestWindow| {
         let app = window.app();
-        let colors = shown_colors(&app.files, &app.settings);
-        colors.map(|colors| colors.title())
+        let colors = shown_legends(&app.files, &app.settings);
+        colors.first().map(|colors| colors.title())
     };
     assert_eq!(title(&mut window), None);
     window.app().settings.color_by = Some("speed".into());
@@ -173,7 +173,7 @@ fn legend_is_about_the_colors_that_are_drawn() {
     window.wait(|app| app.files.is_settled());
     assert_eq!(title(&mut window).as_deref(), Some("speed"));
     window.app().settings.is_density = true;
-    window.wait(|app| shown_colors(&app.files, &app.settings).is_some());
+    window.wait(|app| !shown_legends(&app.files, &app.settings).is_empty());
     assert_eq!(title(&mut window).as_deref(), Some("paths per pixel"));
 }
 

@@ -1,7 +1,7 @@
 //! The Layers tab: several files at once, their kinds of elements, levels, colors and order.
 
 use eframe::egui::accesskit::Toggled;
-use eframe::egui::{Event, Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers, Shape};
 use egui_kittest::kittest::{NodeT, Queryable};
 use guideway_layout::{Layout, Level};
 use guideway_scene::Rgba;
@@ -9,6 +9,9 @@ use guideway_spline::Affine;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
+use crate::canvas::HOVER_COLOR;
+use crate::editing::MarkedSeverities;
+use crate::files::LayerLook;
 use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -66,6 +69,141 @@ fn click_selects_in_any_visible_file_and_activates_it() {
     window.app().files.layers_mut()[0].is_visible = false;
     window.click(low);
     assert_eq!(window.app().files.active_index(), 1);
+}
+
+#[test]
+fn pointer_means_what_is_shown_of_other_files() {
+    let mut window = two_files();
+    // Pins over nodes would tell their findings.
+    window.app().findings.marked = MarkedSeverities([false; 3]);
+    let (node, path) = (window.at(0.0, 4.0), window.at(5.0, 4.0));
+    let says = |window: &mut TestWindow, at, text: &str| {
+        window.wait(|app| app.is_settled());
+        window.harness.event(Event::PointerMoved(at));
+        window.harness.run_steps(3);
+        let hint = format!("{text}, in low.arrow (a click edits this file)");
+        window.harness.query_by_label_contains(&hint).is_some()
+    };
+    let rings = |window: &TestWindow| {
+        let shapes = window.harness.output().shapes.iter();
+        let rings = shapes.filter(|shape| match &shape.shape {
+            Shape::Circle(circle) => circle.stroke.color == HOVER_COLOR,
+            _ => false,
+        });
+        rings.count()
+    };
+    assert!(says(&mut window, node, "node n2 0") && rings(&window) == 1);
+    assert!(!says(&mut window, path, "node") && rings(&window) == 0);
+    // The paths of the file are hidden: its nodes are still there.
+    window.app().files.layers_mut()[0].look.has_paths = false;
+    assert!(says(&mut window, node, "node n2 0"));
+    window.harness.event(Event::PointerMoved(path));
+    window.harness.run_steps(3);
+    assert!(window.app().other_hit.is_none(), "no path is shown");
+    window.click(path);
+    assert_eq!(window.app().files.active_index(), 1);
+    // The other way round.
+    let look = &mut window.app().files.layers_mut()[0].look;
+    (look.has_paths, look.has_nodes) = (true, false);
+    assert!(!says(&mut window, node, "node n2 0"));
+    window.app().files.layers_mut()[0].look = LayerLook {
+        has_paths: false,
+        ..LayerLook::default()
+    };
+    window.wait(|app| app.is_settled());
+    window.click(node);
+    assert_eq!(window.app().files.active_index(), 0);
+    let selected = window.document().selected();
+    assert_eq!(selected.nodes.iter().collect::<Vec<_>>(), [4]);
+    // A click means no path that is not shown.
+    window.click(path);
+    assert!(window.selected().is_empty());
+}
+
+#[test]
+fn legends_name_their_files() {
+    let mut window = two_files();
+    window.app().settings.color_by = Some("speed".into());
+    window.app().recolor();
+    window.wait(|app| app.is_settled());
+    window.harness.run_steps(2);
+    let titles = |window: &TestWindow| {
+        let shapes = window.harness.output().shapes.iter();
+        let texts = shapes.filter_map(|shape| match &shape.shape {
+            Shape::Text(text) if text.galley.text().ends_with("speed") => {
+                Some((text.galley.text().to_owned(), text.pos.y))
+            }
+            _ => None,
+        });
+        texts.collect::<Vec<_>>()
+    };
+    let [(upper, above), (lower, below)] = &titles(&window)[..] else {
+        panic!("there are two: {:?}", titles(&window));
+    };
+    assert_eq!(
+        [&**upper, &**lower],
+        ["high.arrow: speed", "low.arrow: speed"]
+    );
+    assert!(below - above > 40.0, "none is over the other");
+    let picture = window.app().picture().unwrap();
+    let texts: Vec<&str> = picture.marks.texts.iter().map(|of| &*of.text).collect();
+    assert!(texts.contains(&"high.arrow: speed") && texts.contains(&"low.arrow: speed"));
+    assert!(!picture.has_legend, "they are among the marks");
+    window.app().files.layers_mut()[0].is_visible = false;
+    window.harness.run_steps(2);
+    let titles = titles(&window).into_iter().map(|(title, _)| title);
+    assert_eq!(titles.collect::<Vec<_>>(), ["speed"]);
+    assert!(window.app().picture().unwrap().has_legend);
+}
+
+#[test]
+fn opacity_of_a_file_is_that_of_its_picture_and_marks() {
+    let mut window = two_files();
+    let alphas = |window: &mut TestWindow| {
+        window.wait(|app| app.is_settled());
+        window.harness.run_steps(2);
+        let app = window.app();
+        let textures = [0, 1].map(|file: usize| {
+            let shown = app.files.layers()[file].picture.shown();
+            shown.unwrap().texture_id()
+        });
+        let shapes: Vec<_> = window.harness.output().shapes.iter().collect();
+        textures.map(|texture| {
+            let mut tints = shapes.iter().filter_map(|shape| match &shape.shape {
+                Shape::Mesh(mesh) if mesh.texture_id == texture => Some(mesh.vertices[0].color.a()),
+                _ => None,
+            });
+            tints.next().expect("the file is painted")
+        })
+    };
+    assert_eq!(alphas(&mut window), [255, 255]);
+    let alpha_of_name = |window: &TestWindow, name: &str| {
+        let shapes = window.harness.output().shapes.iter();
+        let mut colors = shapes.filter_map(|shape| match &shape.shape {
+            Shape::Text(text) if text.galley.text() == name => text.override_text_color,
+            _ => None,
+        });
+        colors.next_back().expect("the name is painted").a()
+    };
+    let [below, above] = ["n4 0", "n0 0"];
+    assert_eq!(alpha_of_name(&window, below), 255);
+    window.app().files.layers_mut()[0].look.opacity = 0.4;
+    assert_eq!(alphas(&mut window), [102, 255]);
+    assert_eq!(alpha_of_name(&window, below), 102);
+    assert_eq!(alpha_of_name(&window, above), 255);
+    let picture = window.app().picture().unwrap();
+    assert!((picture.others[0].opacity - 0.4).abs() < 1e-6);
+    assert_eq!(picture.opacity, 1.0);
+    let alpha = |name: &str| {
+        // The name of the upper file is the last one.
+        let mut texts = picture.marks.texts.iter();
+        texts.rfind(|text| text.text == name).unwrap().color.a
+    };
+    assert_eq!((alpha(below), alpha(above)), (102, 255));
+    window.app().files.layers_mut()[0].look.opacity = 1.0;
+    window.app().files.layers_mut()[1].look.opacity = 0.25;
+    let picture = window.app().picture().unwrap();
+    assert_eq!((picture.others[0].opacity, picture.opacity), (1.0, 0.25));
 }
 
 #[test]
@@ -155,6 +293,22 @@ fn buttons_of_a_row_move_activate_and_close_files() {
         1,
         "it moved with its file"
     );
+    let names = |window: &mut TestWindow| {
+        let layers = window.app().files.layers().iter();
+        layers.map(|layer| layer.name()).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&mut window), ["high.arrow", "low.arrow"]);
+    // And up again; the first one cannot go up.
+    let buttons: Vec<_> = window.harness.get_all_by_label("↑").collect();
+    let is_possible = buttons.iter().map(|up| !up.accesskit_node().is_disabled());
+    assert_eq!(is_possible.collect::<Vec<_>>(), [false, true]);
+    buttons[1].click();
+    drop(buttons);
+    window.harness.run_steps(3);
+    assert_eq!(names(&mut window), ["low.arrow", "high.arrow"]);
+    assert_eq!(window.app().files.active_index(), 0);
+    window.app().files.move_layer(0, 1);
+    window.harness.run_steps(3);
     let buttons: Vec<_> = window.harness.get_all_by_label("×").collect();
     buttons[0].click();
     drop(buttons);

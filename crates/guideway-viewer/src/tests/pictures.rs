@@ -10,7 +10,7 @@ use guideway_scene::LineRule;
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::app::App;
-use crate::canvas::{HOVER_COLOR, SELECTION_COLOR, shown_colors};
+use crate::canvas::{HOVER_COLOR, SELECTION_COLOR, shown_legends};
 use crate::editing::MarkedSeverities;
 use crate::services::PictureRequest;
 
@@ -207,7 +207,7 @@ fn crowd_of_paths_is_shown_as_density_until_the_user_decides() {
     );
     drop(window);
     let mut window = TestWindow::showing(lanes(12_000));
-    let is_shown = |app: &App| shown_colors(&app.files, &app.settings).is_some();
+    let is_shown = |app: &App| !shown_legends(&app.files, &app.settings).is_empty();
     // Each step takes a quarter of a second of the window: news can leave before its picture is
     // there.
     let mut is_told = false;
@@ -225,8 +225,8 @@ fn crowd_of_paths_is_shown_as_density_until_the_user_decides() {
     assert!(is_shown(window.app()));
     assert!(is_told);
     let app = window.app();
-    let legend = shown_colors(&app.files, &app.settings);
-    assert_eq!(legend.unwrap().column, "paths per pixel");
+    let legends = shown_legends(&app.files, &app.settings);
+    assert_eq!(legends[0].column, "paths per pixel");
     // It is no setting that outlives the file.
     assert!(!window.app().settings.is_density);
     window.key(NONE, Key::Y);

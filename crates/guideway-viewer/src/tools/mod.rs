@@ -32,7 +32,7 @@ mod typing;
 
 pub(crate) use gesture::Gesture;
 pub(crate) use hit_test::{HIT_RADIUS_PX, MAX_HOVER_CANDIDATES};
-pub(crate) use other_hit::OtherHit;
+pub(crate) use other_hit::{HoverTarget, OtherHit};
 pub(crate) use pointer_event::PointerEvent;
 pub(crate) use tool::Tool;
 pub(crate) use tool_context::ToolContext;

@@ -20,7 +20,9 @@ impl Tools {
     ) -> ToolEffect {
         // The path is looked for when the document is back from the edits in progress.
         let (mut context, mode) = (context.detached(), select_mode(modifiers));
-        context.picks_symbols &= self.tool == Tool::Select;
+        if self.tool != Tool::Select {
+            (context.picks.nodes, context.picks.stations) = (false, false);
+        }
         ToolEffect::Edit(EditTask::view_change(move |document| {
             let context = context.of(document);
             let elements = match context.pick_symbol(at_px) {

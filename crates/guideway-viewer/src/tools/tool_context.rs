@@ -1,5 +1,6 @@
 //! The state outside the tools that a pointer event depends on.
 
+use guideway_document::decorations::MarkedKinds;
 use guideway_document::{Document, Element, Hit};
 use guideway_scene::{LineRule, View};
 use guideway_spline::Point;
@@ -16,8 +17,8 @@ pub(crate) struct ToolContext<'a> {
     /// The active document; `None` while it is loaded or an edit has it.
     pub(crate) document: Option<&'a Document>,
     pub(crate) line_rule: LineRule,
-    /// True if nodes and stations are shown, and can be picked.
-    pub(crate) picks_symbols: bool,
+    /// The kinds of elements that are shown, and can be picked.
+    pub(crate) picks: MarkedKinds,
     /// Distance of the lines of the grid, in meters.
     pub(crate) grid_step_m: f64,
 }
@@ -29,7 +30,7 @@ impl<'a> ToolContext<'a> {
             view: self.view,
             document: Some(document),
             line_rule: self.line_rule,
-            picks_symbols: self.picks_symbols,
+            picks: self.picks,
             grid_step_m: self.grid_step_m,
         }
     }
@@ -40,7 +41,7 @@ impl<'a> ToolContext<'a> {
             view: self.view,
             document: None,
             line_rule: self.line_rule,
-            picks_symbols: self.picks_symbols,
+            picks: self.picks,
             grid_step_m: self.grid_step_m,
         }
     }
@@ -63,16 +64,19 @@ impl<'a> ToolContext<'a> {
 
     /// The station or node under the pointer.
     pub(crate) fn pick_symbol(&self, at_px: Point<f64>) -> Option<Element> {
-        let document: &'a Document = self.document.filter(|_| self.picks_symbols)?;
+        let document: &'a Document = self.document?;
         let (at_m, radius_m) = (self.world(at_px), self.hit_radius_m());
-        let station = document.station_near(at_m, radius_m).map(Element::Station);
-        station.or_else(|| document.node_near(at_m, radius_m).map(Element::Node))
+        let station = || document.station_near(at_m, radius_m).map(Element::Station);
+        let node = || document.node_near(at_m, radius_m).map(Element::Node);
+        let station = self.picks.stations.then(station).flatten();
+        station.or_else(|| self.picks.nodes.then(node).flatten())
     }
 
     /// The topmost path under the pointer; `None` if more than `max_candidates` are near it.
     pub(crate) fn pick(&self, at_px: Point<f64>, max_candidates: usize) -> Option<Hit> {
         let (px_per_m, at_m) = (self.view.px_per_m(), self.world(at_px));
-        self.document?.pick(
+        let document = self.document.filter(|_| self.picks.paths)?;
+        document.pick(
             self.line_rule,
             px_per_m,
             at_m,

@@ -3,6 +3,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use guideway_document::Document;
+use guideway_document::decorations::MarkedKinds;
 use guideway_scene::{FrameSize, LineRule, View};
 
 use super::*;
@@ -36,7 +37,11 @@ impl Bench {
             view: self.view,
             document: self.slot.document(),
             line_rule: LineRule::default(),
-            picks_symbols: false,
+            picks: MarkedKinds {
+                nodes: false,
+                stations: false,
+                ..MarkedKinds::default()
+            },
             grid_step_m: 1.0,
         };
         if let Some(ToolEffect::Edit(edit)) = self.tools.handle(event, &context) {
