@@ -15,6 +15,16 @@ pub struct ColorBy {
     pub column: String,
 }
 
+impl ColorBy {
+    /// The least and the largest number of the column; `None` if it has no numbers. Cost: O(paths).
+    pub fn range(&self, layout: &Layout) -> Option<[f64; 2]> {
+        let number = numbers(layout, &self.column)?;
+        let rows = 0..layout.paths.len() as u32;
+        let range = range_of(|| rows.clone().filter_map(&number), None);
+        range[0].is_finite().then_some(range)
+    }
+}
+
 /// Meaning of the colors of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
@@ -166,18 +176,18 @@ fn scale(
     number: Numbers<'_>,
 ) -> (Vec<Rgba>, Legend) {
     let values = || drawn.iter().filter_map(|&path| number(path));
-    let [low, high] = style.range.unwrap_or_else(|| {
-        [
-            values().fold(f64::INFINITY, f64::min),
-            values().fold(f64::NEG_INFINITY, f64::max),
-        ]
-    });
+    let [low, high] = range_of(values, style.range);
     let ramp = Ramp::new(style);
-    let color = |path| number(path).map_or(MISSING, |v| ramp.at((v - low) / (high - low)));
+    let share = |value: f64| match high > low {
+        true => (value - low) / (high - low),
+        false if value > low => 1.0,
+        false => 0.0,
+    };
+    let color = |path| number(path).map_or(MISSING, |value| ramp.at(share(value)));
     let colors = (0..layout.paths.len() as u32).map(color).collect();
     let (mut entries, mut at) = (Vec::new(), Vec::new());
     for (value, label) in ticks(low, high) {
-        let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
+        let share = share(value).clamp(0.0, 1.0);
         at.push(share);
         entries.push(LegendEntry {
             label,
@@ -199,6 +209,14 @@ fn scale(
             }),
         },
     )
+}
+
+/// The ends of a scale: the finite ones of a given range, else the least and the largest value.
+fn range_of<V: Iterator<Item = f64>>(values: impl Fn() -> V, given: Option<[f64; 2]>) -> [f64; 2] {
+    let [low, high] = given.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let or = |end: f64, value: &dyn Fn() -> f64| if end.is_finite() { end } else { value() };
+    let low = or(low, &|| values().fold(high, f64::min));
+    [low, or(high, &|| values().fold(low, f64::max))]
 }
 
 fn no_value(paths: u64) -> LegendEntry {

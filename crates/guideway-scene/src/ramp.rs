@@ -88,8 +88,8 @@ impl Palette {
 pub struct NumberColors {
     /// The colors.
     pub palette: Palette,
-    /// The numbers at both ends of the palette; `None` for the least and the largest one. Numbers
-    /// beyond have the color of the end.
+    /// The numbers at both ends of the palette; `None`, or an infinite end, for the least and the
+    /// largest one. Numbers beyond have the color of the end.
     pub range: Option<[f64; 2]>,
     /// The paper below the paths, from which the colors stand out.
     pub background: Rgba,

@@ -226,6 +226,33 @@ fn a_given_range_ends_the_scale_and_counts_paths_without_a_value() {
 }
 
 #[test]
+fn an_infinite_end_of_a_range_is_that_of_the_column() {
+    let mut speeds = layout(12);
+    for row in 0..12 {
+        let attributes = &mut speeds.paths.attributes;
+        attributes.set(row, "speed", Value::Float(1.0 + row as f64));
+    }
+    let column = by("speed").color_by.unwrap();
+    assert_eq!(column.range(&speeds), Some([1.0, 12.0]));
+    assert_eq!(by("level").color_by.unwrap().range(&speeds), None);
+    let scale = |low, high| {
+        let mut options = by("speed");
+        options.numbers.range = Some([low, high]);
+        let scene = scene(speeds.clone(), &options);
+        let colors = [0, 3, 11].map(|row| scene.color(row));
+        (colors, scene.legend().cloned())
+    };
+    let (least, most) = (f64::NEG_INFINITY, f64::INFINITY);
+    assert_eq!(scale(least, most), scale(1.0, 12.0));
+    assert_eq!(scale(4.0, most), scale(4.0, 12.0));
+    assert_eq!(scale(least, 4.0), scale(1.0, 4.0));
+    // One end beyond all numbers: those below have the color of the lower end.
+    let (colors, _) = scale(99.0, most);
+    assert!(colors.iter().all(|color| *color == colors[0]));
+    assert_eq!(colors[0], scale(1.0, 12.0).0[0]);
+}
+
+#[test]
 fn walls_are_gray_below_the_ways_only_where_asked() {
     let mut hall = layout(3);
     hall.paths.attributes.set(1, "element", Value::Text("lane"));
@@ -247,6 +274,24 @@ fn walls_are_gray_below_the_ways_only_where_asked() {
     assert_eq!(styled.draw_order(), [2, 0, 1]);
     assert_ne!(styled.color(2), styled.color(0));
     assert_eq!(styled.color(1), as_before.color(1));
+    // A copy of a wall is a wall, and a color of its own makes it no way.
+    let copy = Insertion {
+        attributes_of: Some(2),
+        ..Insertion::default()
+    };
+    styled.edit(&Edit::Insert([copy].into())).unwrap();
+    assert_eq!(styled.color(3), styled.color(2));
+    assert_eq!(styled.draw_order(), [2, 3, 0, 1]);
+    let red = OwnStyle {
+        width_m: None,
+        color_rgba: Some(0xff00_00ff),
+    };
+    let restyled = [(2, red), (1, red)].into();
+    styled.edit(&Edit::Restyle(restyled)).unwrap();
+    assert_eq!(styled.color(2), styled.color(3));
+    assert_eq!(styled.color(1), Rgba::opaque(255, 0, 0));
+    let below = [0, 1, 2, 3].map(|row| styled.is_below_ways(row));
+    assert_eq!(below, [false, false, true, true]);
 }
 
 #[test]
@@ -274,24 +319,6 @@ fn legend_has_round_numbers_at_their_colors() {
             assert!(entry.color.b.abs_diff(b) <= 2, "{tone:?} {count}");
         }
     }
-    // A copy of a wall is a wall, and a color of its own makes it no way.
-    let copy = Insertion {
-        attributes_of: Some(2),
-        ..Insertion::default()
-    };
-    styled.edit(&Edit::Insert([copy].into())).unwrap();
-    assert_eq!(styled.color(3), styled.color(2));
-    assert_eq!(styled.draw_order(), [2, 3, 0, 1]);
-    let red = OwnStyle {
-        width_m: None,
-        color_rgba: Some(0xff00_00ff),
-    };
-    let restyled = [(2, red), (1, red)].into();
-    styled.edit(&Edit::Restyle(restyled)).unwrap();
-    assert_eq!(styled.color(2), styled.color(3));
-    assert_eq!(styled.color(1), Rgba::opaque(255, 0, 0));
-    let below = [0, 1, 2, 3].map(|row| styled.is_below_ways(row));
-    assert_eq!(below, [false, false, true, true]);
     let single = shade(
         &[1.0],
         ToneMap::Log,

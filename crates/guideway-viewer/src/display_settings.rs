@@ -6,7 +6,9 @@ use guideway_document::decorations::{
     DecorationStyle, MarkOptions, MarkedKinds, grid, grid_step_m,
 };
 use guideway_scene::density::ToneMap;
-use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, Style, View};
+use guideway_scene::{
+    ColorBy, DrawList, LineRule, NumberColors, Palette, Rgba, SceneOptions, Shading, Style, View,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::language::Language;
@@ -14,12 +16,12 @@ use crate::units::{LengthUnit, SpeedUnit, Units};
 
 /// Greatest width of paths without a width of their own, in meters.
 pub(crate) const MAX_WIDTH_M: f64 = 2.0;
-/// Range of the least width on screen, in points.
-pub(crate) const MIN_PX_RANGE: RangeInclusive<f64> = 0.5..=8.0;
 /// The width that files of the settings had before it could be automatic, in meters.
 const OLD_WIDTH_M: f64 = 0.1;
 /// Least width on screen until the user sets one, in points.
 const MIN_PX: f64 = 1.5;
+/// Range of the least width on screen, in points.
+pub(crate) const MIN_PX_RANGE: RangeInclusive<f64> = 0.5..=8.0;
 /// Range of the grid step, in meters.
 pub(crate) const GRID_STEPS_M: RangeInclusive<f64> = 0.001..=10_000.0;
 
@@ -48,6 +50,12 @@ pub(crate) struct DisplaySettings {
     /// The attribute column that colors the paths; `None` uses the colors of the file.
     #[serde(skip)]
     pub(crate) color_by: Option<String>,
+    /// Palette of the numbers of that column.
+    #[serde(skip)]
+    pub(crate) palette: Palette,
+    /// The numbers at both ends of the palette; `None` for the least and the largest one.
+    #[serde(skip)]
+    pub(crate) range: [Option<f64>; 2],
     pub(crate) is_thesis_rule: bool,
     /// Width of paths without a width of their own, in meters; `None` takes what suits the file.
     pub(crate) width_m: Option<f64>,
@@ -80,6 +88,8 @@ impl Default for DisplaySettings {
             theme: ThemeChoice::default(),
             is_dark: false,
             color_by: None,
+            palette: Palette::default(),
+            range: [None; 2],
             is_thesis_rule: false,
             width_m: None,
             min_px: MIN_PX,
@@ -172,13 +182,30 @@ impl DisplaySettings {
         SceneOptions {
             color: Some(PATH_COLOR),
             color_by: self.color_by.clone().map(|column| ColorBy { column }),
+            numbers: self.number_colors(),
+            has_gray_structure: true,
             ..SceneOptions::default()
+        }
+    }
+
+    /// The colors of the numbers of a column.
+    fn number_colors(&self) -> NumberColors {
+        let [from, to] = self.range;
+        let ends = [
+            from.unwrap_or(f64::NEG_INFINITY),
+            to.unwrap_or(f64::INFINITY),
+        ];
+        NumberColors {
+            palette: self.palette,
+            range: (self.range != [None; 2]).then_some(ends),
+            background: self.background(),
         }
     }
 
     /// Returns `true` if the scenes of the two settings differ.
     pub(crate) fn needs_other_scene(&self, other: &Self) -> bool {
-        self.color_by != other.color_by
+        let colors = |of: &Self| (of.palette, of.range);
+        self.color_by != other.color_by || colors(self) != colors(other)
     }
 
     /// Returns `true` if the density of paths is shown, not their colors.
@@ -255,6 +282,11 @@ mod tests {
         let mut colored = settings.clone();
         colored.color_by = Some("maxSpeed".into());
         assert!(!settings.needs_other_scene(&wide) && settings.needs_other_scene(&colored));
+        let mut of_range = settings.clone();
+        of_range.range[1] = Some(2.0);
+        let mut gray = settings.clone();
+        gray.palette = Palette::Gray;
+        assert!(settings.needs_other_scene(&of_range) && settings.needs_other_scene(&gray));
     }
 
     #[test]
@@ -314,7 +346,6 @@ mod tests {
         };
         assert!(min_px <= max_px);
     }
-}
 
     #[test]
     fn widths_suit_the_file_until_the_user_sets_one() {
@@ -353,3 +384,4 @@ mod tests {
         let text = toml::to_string(&DisplaySettings::default()).unwrap();
         assert!(!text.contains("width-m"), "{text}");
     }
+}

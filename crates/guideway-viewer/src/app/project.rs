@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use guideway_document::Document;
 use guideway_layout::shown_path;
+use guideway_scene::Palette;
 use guideway_spline::Point;
 
 use super::open_project::{OpenProject, ReadProject};
@@ -111,10 +112,15 @@ impl App {
             })
         });
         let view = self.canvas.camera.view();
+        let palette = self.settings.palette;
+        let [color_from, color_to] = self.settings.range;
         Ok(Project {
             active: active.unwrap_or(0),
             level: self.document().and_then(shown_level),
             color_by: self.settings.color_by.clone(),
+            palette: (palette != Palette::default()).then(|| palette.name().to_owned()),
+            color_from,
+            color_to,
             view: view.map(|view| ProjectView {
                 center_m: [view.center_m().x, view.center_m().y],
                 px_per_m: view.px_per_m(),
@@ -168,10 +174,13 @@ impl App {
             }),
             level: project.level.clone(),
         };
+        let palette = project.palette.as_deref();
         self.settings = DisplaySettings {
             theme: self.settings.theme,
             is_dark: self.settings.is_dark,
             color_by: project.color_by.clone(),
+            palette: palette.and_then(Palette::named).unwrap_or_default(),
+            range: [project.color_from, project.color_to],
             uses_desktop_dialogs: self.settings.uses_desktop_dialogs,
             language: self.settings.language,
             ..project.look.clone()

@@ -102,8 +102,10 @@ impl BackgroundTasks {
         options: SceneOptions,
         repaint: &RepaintHandle,
     ) {
-        let is_same =
-            self.options.color == options.color && self.options.color_by == options.color_by;
+        let numbers = |of: &SceneOptions| of.color_by.is_some().then_some(of.numbers);
+        let is_same = self.options.color == options.color
+            && self.options.color_by == options.color_by
+            && numbers(&self.options) == numbers(&options);
         if let Some(document) = document.filter(|_| !is_same) {
             self.options = options;
             self.start_recoloring(document, repaint);
@@ -210,8 +212,6 @@ impl BackgroundTasks {
         events
     }
 
-    fn poll_check(&mut self) -> Option<TaskEvent> {
-        let result = self.checking.as_ref().and_then(BackgroundTask::result)?;
     /// Returns `true` if values of a document decide its colors: those of a column, or which paths
     /// are walls.
     fn reads_values(&self, document: &Document) -> bool {
@@ -219,6 +219,8 @@ impl BackgroundTasks {
         self.options.color_by.is_some() || self.options.has_gray_structure && has_walls()
     }
 
+    fn poll_check(&mut self) -> Option<TaskEvent> {
+        let result = self.checking.as_ref().and_then(BackgroundTask::result)?;
         self.checking = None;
         match result {
             Ok(findings) => {

@@ -1,7 +1,8 @@
 //! The head of the View tab: colors, line widths, decorations, swept areas.
 
-use eframe::egui::{ComboBox, Slider, TextEdit, Ui};
-use guideway_layout::{Attribute, Layout};
+use eframe::egui::{ComboBox, DragValue, Slider, TextEdit, Ui};
+use guideway_layout::{Attribute, Layout, Values};
+use guideway_scene::{ColorBy, Palette};
 
 use crate::action::Action;
 use crate::backdrop::SweptAreasLayer;
@@ -14,6 +15,8 @@ const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
 
 /// Width of lines when the user first sets one, in meters.
 const FIRST_WIDTH_M: f64 = 0.05;
+/// Change of a number of a column per point of a drag.
+const DRAG_SPEED: f64 = 0.02;
 
 /// Shows the section.
 pub(super) fn show(
@@ -37,6 +40,13 @@ pub(super) fn show(
                 ui.selectable_value(&mut settings.color_by, Some(name), label);
             }
         });
+    if settings.color_by != before.color_by {
+        // The numbers of another column have another range.
+        settings.range = [None; 2];
+    }
+    if let Some(document) = files.document() {
+        show_numbers(ui, document.layout(), settings);
+    }
     ui.checkbox(&mut settings.is_thesis_rule, t("Line widths of the thesis"));
     ui.add_enabled_ui(!settings.is_thesis_rule, |ui| {
         show_width(ui, settings);
@@ -72,6 +82,49 @@ pub(super) fn show(
         settings.is_crowded = false;
         actions.push(Action::Recolor);
     }
+}
+
+/// Shows palette and range, if numbers decide the colors.
+fn show_numbers(ui: &mut Ui, layout: &Layout, settings: &mut DisplaySettings) {
+    let column = settings.color_by.as_ref();
+    let attribute = column.and_then(|column| layout.paths.column(column));
+    let has_numbers = |of: &Attribute| matches!(of.values, Values::Int(_) | Values::Float(_));
+    let Some(attribute) = attribute.filter(|attribute| has_numbers(attribute)) else {
+        return;
+    };
+    ComboBox::from_label(t("Palette"))
+        .selected_text(t(settings.palette.name()))
+        .show_ui(ui, |ui| {
+            for palette in Palette::ALL {
+                ui.selectable_value(&mut settings.palette, palette, t(palette.name()));
+            }
+        });
+    let [from, to] = settings.range;
+    let limits = [
+        f64::MIN..=to.unwrap_or(f64::MAX),
+        from.unwrap_or(f64::MIN)..=f64::MAX,
+    ];
+    let present = || {
+        let by = ColorBy {
+            column: attribute.name.clone(),
+        };
+        by.range(layout).unwrap_or([0.0, 1.0])
+    };
+    ui.horizontal(|ui| {
+        let ends = [t("Range from"), t("up to")]
+            .into_iter()
+            .zip(limits)
+            .enumerate();
+        for (end, (label, limits)) in ends {
+            let is_given = settings.range[end].is_some();
+            optional(ui, label, is_given, |is_given| {
+                settings.range[end] = is_given.then(|| present()[end]);
+            });
+            if let Some(number) = &mut settings.range[end] {
+                ui.add(DragValue::new(number).range(limits).speed(DRAG_SPEED));
+            }
+        }
+    });
 }
 
 /// Shows the width of lines in meters, or that it is automatic.

@@ -36,6 +36,13 @@ pub(crate) struct Project {
     /// Column that colors the paths; `None` uses the colors of the files.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) color_by: Option<String>,
+    /// Palette and range of the numbers of that column.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) palette: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) color_from: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) color_to: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) view: Option<ProjectView>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,6 +119,9 @@ impl Project {
             }
         }
         project.look = project.look.in_range();
+        for end in [&mut project.color_from, &mut project.color_to] {
+            *end = end.filter(|number| number.is_finite());
+        }
         let is_sound = |view: &ProjectView| {
             let numbers = [view.center_m[0], view.center_m[1], view.px_per_m];
             numbers.iter().all(|number| number.is_finite()) && view.px_per_m > 0.0
@@ -151,6 +161,9 @@ mod tests {
             active: 1,
             level: Some("Hall".into()),
             color_by: Some("maxSpeed".into()),
+            palette: Some("viridis".into()),
+            color_from: Some(0.5),
+            color_to: None,
             view: Some(ProjectView {
                 center_m: [1.5, -2.0],
                 px_per_m: 12.0,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use eframe::egui::{Key, Modifiers};
+use guideway_scene::Palette;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
@@ -33,6 +34,8 @@ fn project_restores_files_view_plan_and_look() {
     app.files.activate(0);
     app.files.layers_mut()[1].is_visible = false;
     app.settings.color_by = Some("speed".into());
+    app.settings.palette = Palette::Cividis;
+    app.settings.range = [None, Some(1.5)];
     app.settings.has_labels = false;
     let context = app.context.clone();
     let plan = folder.path().join("plans/hall.png");
@@ -63,6 +66,8 @@ fn project_restores_files_view_plan_and_look() {
     let shown: Vec<bool> = app.files.layers().iter().map(|l| l.is_visible).collect();
     assert_eq!(shown, [true, false]);
     assert_eq!(app.settings.color_by.as_deref(), Some("speed"));
+    assert_eq!(app.settings.palette, Palette::Cividis);
+    assert_eq!(app.settings.range, [None, Some(1.5)]);
     assert!(!app.settings.has_labels);
     let plan = &app.floor_plan;
     assert!(
