@@ -320,6 +320,19 @@ mod tests {
     }
 
     #[test]
+    fn jpeg_is_read_as_a_floor_plan() {
+        let plan = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../guideway-formats/src/raster/halves.jpg@px-per-m=2,offset=0,0"
+        );
+        let plan = FileServices::for_measurement().read_floor_plan(plan);
+        let plan = plan.unwrap();
+        assert!(matches!(plan, FloorPlan::Image(_)));
+        let size_m = plan.bounds().unwrap().size();
+        assert_eq!((size_m.x, size_m.y), (8.0, 4.0));
+    }
+
+    #[test]
     fn opacity_of_the_paths_is_that_of_the_request() {
         let mut request = request(Shading::Color);
         assert!(!svg(&request).contains("<g opacity"));
@@ -343,6 +356,11 @@ mod tests {
         let request = request(Shading::Density(ToneMap::Log));
         assert!(request.scene.legend().is_none(), "no column is shown");
         assert!(svg(&request).contains("paths per pixel"));
+        let without = PictureRequest {
+            has_legend: false,
+            ..request.clone()
+        };
+        assert!(!svg(&without).contains("paths per pixel"));
         let has_legend = |has_legend: bool| {
             let mut picture = picture(&request);
             picture.decorations.has_legend &= has_legend;
@@ -353,8 +371,3 @@ mod tests {
         assert!(has_legend(true).pixels() != has_legend(false).pixels());
     }
 }
-        let without = PictureRequest {
-            has_legend: false,
-            ..request.clone()
-        };
-        assert!(!svg(&without).contains("paths per pixel"));

@@ -1,12 +1,14 @@
 //! The checks of a layout and its network: refreshed after edits, marked, and fixed.
 
-use eframe::egui::{Event, Key, Modifiers};
+use eframe::egui::{Color32, Event, Key, Modifiers, Pos2, Shape};
 use egui_kittest::kittest::Queryable;
 use guideway_layout::{Code, Direction, Layout, Severity};
 use guideway_spline::Point;
 
 use super::services::lanes;
 use super::test_window::TestWindow;
+use crate::canvas::severity_color;
+use crate::editing::MarkedSeverities;
 use crate::panels::SideTab;
 
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -106,6 +108,44 @@ fn tab_counts_and_pointer_tells_the_finding() {
     window.app().findings.marked.0 = [false; 3];
     window.harness.run_steps(3);
     assert_eq!(is_told(&window), 0, "findings are not marked");
+}
+
+#[test]
+fn pins_are_in_the_colors_of_their_severities() {
+    let mut window = showing(lanes(9));
+    let severities = [Severity::Error, Severity::Warning, Severity::Info];
+    let tasks = &mut window.app().files.layers_mut()[0].tasks;
+    let mut findings = tasks.take_findings().unwrap();
+    assert!(
+        findings.marks.len() > 3,
+        "lanes that lead nowhere have findings"
+    );
+    // Three at places of their own, the others out of sight.
+    let heights = [0.0, 4.0, 8.0];
+    for (number, mark) in findings.marks.iter_mut().enumerate() {
+        mark.severity = severities[number.min(2)];
+        let y = heights.get(number).copied().unwrap_or(1e5);
+        mark.at_m = Point::new(5.0, y);
+    }
+    tasks.set_findings(findings);
+    window.app().findings.marked = MarkedSeverities([true; 3]);
+    window.harness.run_steps(2);
+    let heads: Vec<(Pos2, Color32)> = {
+        let shapes = window.harness.output().shapes.iter();
+        let circles = shapes.filter_map(|shape| match &shape.shape {
+            Shape::Circle(circle) => Some((circle.center, circle.fill)),
+            _ => None,
+        });
+        circles.collect()
+    };
+    for (severity, y) in severities.into_iter().zip(heights) {
+        let at = window.at(5.0, y);
+        let mut near = heads.iter().filter(|(head, _)| head.distance(at) < 20.0);
+        let pin = near.next().map(|(_, fill)| *fill);
+        assert_eq!(pin, Some(severity_color(severity)), "{severity:?}");
+    }
+    let colors = severities.map(severity_color);
+    assert!(colors[0] != colors[1] && colors[1] != colors[2] && colors[0] != colors[2]);
 }
 
 #[test]

@@ -1,7 +1,10 @@
-//! Floor plans by hand: moved by a drag, scaled by two points, faded, locked.
+//! Floor plans by hand: moved by a drag, scaled by two points, turned, faded, locked.
 
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, Shape};
 use egui_kittest::kittest::Queryable;
+use guideway_compose::FloorPlan;
+use guideway_scene::{Budget, Frame, FrameSize, Rgba, Strip, View};
+use guideway_spline::Point;
 
 use super::services::lanes;
 use super::test_window::{TestWindow, has_notice};
@@ -117,4 +120,85 @@ fn plan_that_cannot_be_read_is_told_and_the_present_one_stays() {
     window.wait(|app| has_notice(app, "not a floor plan"));
     assert_eq!(placed(&mut window), before);
     window.wait(|app| app.floor_plan.shown().is_some());
+}
+
+/// A JPEG image of 16 x 8 pixels: the left half is red, the right half blue.
+const JPEG: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../guideway-formats/src/raster/halves.jpg"
+);
+
+/// A window with a JPEG image as its floor plan, and the dialog that it opens.
+fn with_jpeg() -> TestWindow {
+    let mut window = TestWindow::showing(lanes(3));
+    window.key(Modifiers::COMMAND, Key::L);
+    window.app().dialogs.prompt.open_mut().unwrap().text = JPEG.into();
+    window.key(NONE, Key::Enter);
+    window.wait(|app| app.floor_plan.shown().is_some());
+    window.harness.run_steps(3);
+    window
+}
+
+/// The color of the plan at a place, in meters.
+fn color_at(plan: &FloorPlan, x: f64, y: f64) -> [u8; 4] {
+    let size = FrameSize::new(1, 1).unwrap();
+    let view = View::new(size, Point::new(x, y), 1_000.0).unwrap();
+    let mut frame = Frame::new(size);
+    let mut prepared = plan.prepare(&Budget::default()).unwrap();
+    let drawn = prepared.render(&Strip::whole(&view), Rgba::WHITE, &mut frame);
+    drawn.unwrap();
+    frame.pixels()[0]
+}
+
+#[test]
+fn jpeg_is_a_floor_plan() {
+    let mut window = with_jpeg();
+    let app = window.app();
+    assert!(app.plan_editor.is_open, "its scale is to be set");
+    assert!(app.floor_plan.error().is_none() && app.dialogs.notices.texts().is_empty());
+    let plan = app.floor_plan.visible().unwrap();
+    // 16 x 8 pixels of 5 cm.
+    let size_m = plan.bounds().unwrap().size();
+    assert!(size_m.distance(Point::new(0.8, 0.4)) < 1e-9, "{size_m:?}");
+    let [red, blue] = [0.1, 0.7].map(|x| color_at(plan, x, 0.2));
+    assert!(red[0] > 240 && red[2] < 15, "{red:?}");
+    assert!(blue[2] > 240 && blue[0] < 15, "{blue:?}");
+}
+
+#[test]
+fn rotation_field_turns_the_plan_about_its_middle() {
+    let mut window = with_jpeg();
+    let bounds = |window: &mut TestWindow| {
+        window.wait(|app| !app.floor_plan.is_reading() && app.floor_plan.visible().is_some());
+        let plan = window.app().floor_plan.visible().unwrap();
+        plan.bounds().unwrap()
+    };
+    let before = bounds(&mut window);
+    window.harness.get_by_label("Rotation").focus();
+    window.answer("90");
+    assert!(placed(&mut window).contains("rotate=90,"));
+    let after = bounds(&mut window);
+    assert!(after.center().distance(before.center()) < 1e-6);
+    assert!(after.size().distance(Point::new(0.4, 0.8)) < 1e-6);
+    // The red half, which was on the left, is below.
+    let center = after.center();
+    let plan = window.app().floor_plan.visible().unwrap();
+    let [red, blue] = [-0.3, 0.3].map(|up| color_at(plan, center.x, center.y + up));
+    assert!(red[0] > 240 && blue[2] > 240, "{red:?} {blue:?}");
+}
+
+#[test]
+fn plan_is_painted_with_its_opacity() {
+    let mut window = with_plan();
+    for (opacity, alpha) in [(1.0, 255), (0.4, 102), (0.0, 0)] {
+        window.app().floor_plan.opacity = opacity;
+        window.harness.run_steps(2);
+        let texture = window.app().floor_plan.shown().unwrap().0.id();
+        let shapes = window.harness.output().shapes.iter();
+        let mut tints = shapes.filter_map(|shape| match &shape.shape {
+            Shape::Mesh(mesh) if mesh.texture_id == texture => Some(mesh.vertices[0].color.a()),
+            _ => None,
+        });
+        assert_eq!(tints.next(), Some(alpha), "{opacity}");
+    }
 }

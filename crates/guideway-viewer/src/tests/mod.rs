@@ -1,5 +1,6 @@
 //! Tests that drive the whole application by mouse and keys, without a window.
 
+mod appearance;
 mod arranging;
 mod background;
 mod chrome;
@@ -10,6 +11,7 @@ mod drawing;
 mod event_order;
 mod file_names;
 mod files;
+mod find;
 mod findings;
 mod first_layout;
 mod floor_plans;
@@ -26,6 +28,7 @@ mod network;
 mod panels;
 mod partial_redraw;
 mod pictures;
+mod plan_files;
 mod projects;
 mod properties;
 mod random_input;

@@ -7,6 +7,7 @@ use eframe::egui::{Color32, CursorIcon, Event, Key, Modifiers, Pos2, Shape};
 use egui_kittest::kittest::Queryable;
 use guideway_scene::LineRule;
 
+use super::appearance::small_drawing;
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::app::App;
@@ -195,6 +196,21 @@ fn pictures_show_lines_arrows_and_names_as_large_as_the_screen_does() {
         };
         assert_eq!(min_px, 1.5 * f64::from(px_per_point));
     }
+}
+
+#[test]
+fn picture_has_the_widths_of_each_file() {
+    let files = [("plan.dxf", small_drawing()), ("site.arrow", lanes(2))];
+    let disk = TestServices::with(files);
+    let mut window = TestWindow::open(&disk, &["plan.dxf", "site.arrow"], Some("cpu"));
+    window.wait(|app| app.is_settled());
+    let radius_px = |rule: LineRule| rule.radius_px(None, 1_000.0);
+    let shown = window.app().picture().unwrap();
+    assert_eq!(radius_px(shown.others[0].line_rule), 0.5);
+    assert_eq!(radius_px(shown.style.line_rule), 6.0);
+    let larger = exported(&mut window, 2 * shown.view.size().width());
+    assert_eq!(radius_px(larger.others[0].line_rule), 1.0);
+    assert_eq!(radius_px(larger.style.line_rule), 12.0);
 }
 
 #[test]

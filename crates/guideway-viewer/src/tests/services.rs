@@ -17,6 +17,7 @@ use guideway_scene::{
 };
 use guideway_spline::{Point, Runs};
 
+use super::plan_files::read_plan;
 use crate::services::{
     AppServices, FileAnswer, FileFormat, FileQuestion, FileStamp, Job, LostPart, MethodChoice,
     PendingFileAnswer, PictureRequest, Saved, WINDOW_ERROR, names_in,
@@ -162,22 +163,6 @@ pub(crate) fn lanes(count: u32) -> Layout {
     layout
 }
 
-/// A floor plan of two walls, 40 m x 30 m.
-fn hall() -> FloorPlan {
-    let mut layout = Layout::default();
-    for side in [-1.0, 1.0] {
-        let mut runs = Runs::default();
-        let [from, to] = [-20.0, 20.0].map(|x| Point::new(x, 15.0 * side));
-        runs.push_line(from, to);
-        layout.paths.push(&NewPath {
-            id: "wall",
-            runs: &runs,
-            ..NewPath::default()
-        });
-    }
-    FloorPlan::from_layout(layout).expect("the hall has no levels")
-}
-
 impl AppServices for TestServices {
     fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
         job.advance(1, 2);
@@ -297,8 +282,7 @@ impl AppServices for TestServices {
     }
 
     fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
-        let plan = plan.contains("hall.png@px-per-m=").then(hall);
-        plan.ok_or_else(|| Self::error("not a floor plan"))
+        read_plan(plan).ok_or_else(|| Self::error("not a floor plan"))
     }
 
     fn render_swept_areas(

@@ -249,6 +249,13 @@ impl TestWindow {
         self.answer(text);
     }
 
+    /// Replaces the number that a field to drag shows, and confirms it.
+    pub(super) fn type_over_number(&mut self, shown: &str, text: &str) {
+        let number = By::new().role(Role::SpinButton).value(shown);
+        self.harness.get(number).focus();
+        self.answer(text);
+    }
+
     pub(super) fn key(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.harness.step();
