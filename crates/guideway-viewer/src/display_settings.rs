@@ -171,10 +171,9 @@ impl DisplaySettings {
         }
     }
 
-    /// Distance of the grid lines of a view, in meters: points snap to the lines that are shown.
+    /// Distance of the grid lines of a view, in meters, whether they are shown or not.
     pub(crate) fn grid_step_m(&self, view: &View, px_per_point: f64) -> f64 {
-        self.grid_step_m
-            .unwrap_or_else(|| grid_step_m(view, px_per_point))
+        grid_step_m(view, self.grid_step_m, px_per_point)
     }
 
     /// The options that scenes are made with.

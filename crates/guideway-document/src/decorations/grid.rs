@@ -15,23 +15,24 @@ const OPACITY: f64 = 0.12;
 /// Least distance between the lines of a given step, in points; below it every tenth is drawn.
 const MIN_GIVEN_POINTS: f64 = 8.0;
 
-/// Distance of the grid lines of a view in meters: 1, 2 or 5 times a power of ten.
-pub fn grid_step_m(view: &View, px_per_point: f64) -> f64 {
-    round_step(MIN_SPACING_POINTS * px_per_point / view.px_per_m())
+/// Distance of the grid lines of a view in meters: the given step, times a power of ten where its
+/// lines would be too close. Without one it is 1, 2 or 5 times a power of ten.
+pub fn grid_step_m(view: &View, given_m: Option<f64>, px_per_point: f64) -> f64 {
+    let meters = |points: f64| points * px_per_point / view.px_per_m();
+    match given_m {
+        Some(step_m) => coarser(step_m, meters(MIN_GIVEN_POINTS)),
+        None => round_step(meters(MIN_SPACING_POINTS)),
+    }
 }
 
-/// The grid of a view: lines one point wide, `step_m` meters apart, or else [`grid_step_m`].
-pub fn grid(view: &View, step_m: Option<f64>, style: &DecorationStyle) -> DrawList {
+/// The grid of a view: lines one point wide and [`grid_step_m`] apart.
+pub fn grid(view: &View, given_m: Option<f64>, style: &DecorationStyle) -> DrawList {
     let mut list = DrawList::default();
     let color = style.ink.with_opacity(OPACITY);
     let half_px = style.px_per_point / 2.0;
     let size = view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
-    let least_m = MIN_GIVEN_POINTS * style.px_per_point / view.px_per_m();
-    let step_m = match step_m {
-        Some(step_m) => coarser(step_m, least_m),
-        None => grid_step_m(view, style.px_per_point),
-    };
+    let step_m = grid_step_m(view, given_m, style.px_per_point);
     let [x_px, y_px] = line_positions(view, step_m);
     for x in x_px {
         let (left, right) = (x - half_px, x + half_px);
@@ -100,6 +101,12 @@ mod tests {
         };
         // 400 px at 20 px/m are 20 m; at 5 px/m the lines are 7.5 px apart, so 15 m it is.
         assert_eq!((lines(20.0), lines(5.0)), (13, 5));
+        let step_m = |px_per_m| {
+            let size = FrameSize::new(400, 400).unwrap();
+            let view = View::new(size, Point::new(3.0, 3.0), px_per_m).unwrap();
+            grid_step_m(&view, Some(1.5), 1.0)
+        };
+        assert_eq!([20.0, 5.0, 0.5].map(step_m), [1.5, 15.0, 150.0]);
     }
 
     #[test]

@@ -1,13 +1,12 @@
 //! Steps that all parts of the application take: edit, recolor, tell the user.
 
 use eframe::egui::Context;
-use guideway_document::decorations::MarkedKinds;
 
 use super::state::App;
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::editing::EditTask;
-use crate::files::{Layer, LayerEvent, OpenFiles};
+use crate::files::{Layer, LayerEvent, OpenFiles, layer_tool_context};
 use crate::tools::{ToolContext, ToolEffect};
 
 impl App {
@@ -64,19 +63,7 @@ pub(super) fn tool_context_of<'a>(
     settings: &DisplaySettings,
 ) -> Option<ToolContext<'a>> {
     let view = canvas.camera.view()?;
-    let widths = layer.map(|layer| layer.widths).unwrap_or_default();
-    let shown = layer.map_or_else(MarkedKinds::default, |layer| layer.look.kinds());
-    Some(ToolContext {
-        view,
-        document: layer.and_then(Layer::document),
-        line_rule: settings.line_rule(widths, canvas.px_per_point()),
-        picks: MarkedKinds {
-            paths: shown.paths,
-            nodes: shown.nodes && settings.has_symbols,
-            stations: shown.stations && settings.has_symbols,
-        },
-        grid_step_m: settings.grid_step_m(&view, canvas.px_per_point()),
-    })
+    Some(layer_tool_context(layer, view, settings, canvas.px_per_point()))
 }
 
 /// Takes the keyboard focus from a text field, so that shortcuts work again.

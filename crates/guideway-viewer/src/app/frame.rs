@@ -53,6 +53,7 @@ impl App {
             Panel::top("drawing").show(ui, |ui| {
                 let mut bar = DrawingBar {
                     files: &self.files,
+                    canvas: &self.canvas,
                     tools: &mut self.tools,
                     settings: &mut self.settings,
                     new_edges: &mut self.new_edges,

@@ -29,11 +29,11 @@ use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanTask, SweptAreasLayer};
 use crate::compare::Changed;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
-use crate::files::{Layer, OpenFiles};
+use crate::files::{Layer, OpenFiles, layer_tool_context};
 use crate::language::translated;
 use crate::network_draft::Drafted;
 use crate::route::FoundRoute;
-use crate::tools::{Gesture, HoverTarget, OtherHit, Tool, ToolContext, Tools};
+use crate::tools::{Gesture, HoverTarget, OtherHit, Tool, Tools};
 
 const MESSAGE_POINTS: f32 = 15.0;
 /// Opacity of the lines of what belongs to a selected level or vehicle type.
@@ -301,16 +301,8 @@ impl CanvasPainter<'_> {
 
     fn paint_gesture(&self, painter: &Painter) {
         let px_per_point = f64::from(self.screen.px_per_point);
-        let widths = self.files.active().map(|layer| layer.widths);
-        let context = ToolContext {
-            view: self.view,
-            document: self.files.document(),
-            line_rule: self
-                .settings
-                .line_rule(widths.unwrap_or_default(), px_per_point),
-            picks: MarkedKinds::default(),
-            grid_step_m: self.settings.grid_step_m(&self.view, px_per_point),
-        };
+        let active = self.files.active();
+        let context = layer_tool_context(active, self.view, self.settings, px_per_point);
         let pointer_m = self
             .pointer_px
             .map(|at_px| self.view.world_from_pixel(at_px));

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`OpenFiles`] | the open files, the active one, watcher, recent files | `open_files` |
 //! | [`Layer`] | one open file: loader, document slot, picture, tasks | `layer`, `layer_poll` |
+//! | [`layer_tool_context`] | what the tools see of a file | `layer_tool_context` |
 //! | [`Loader`](loader::Loader) | the thread that reads a file | `loader` |
 //! | [`DraftFile`](draft_file::DraftFile) | the first state of a layout without a file | `draft_file` |
 //! | `NewLayouts` | layouts that wait for a name | `new_layouts` |
@@ -18,6 +19,7 @@ mod layer_context;
 mod layer_event;
 mod layer_look;
 mod layer_poll;
+mod layer_tool_context;
 mod loader;
 mod new_layouts;
 mod open_files;
@@ -31,6 +33,7 @@ pub(crate) use layer::Layer;
 pub(crate) use layer_context::LayerContext;
 pub(crate) use layer_event::LayerEvent;
 pub(crate) use layer_look::LayerLook;
+pub(crate) use layer_tool_context::layer_tool_context;
 pub(crate) use loader::NewLayout;
 pub(crate) use open_files::OpenFiles;
 pub(crate) use save_state::{BegunSave, SavedFile, is_unknown};

@@ -1,24 +1,26 @@
 //! The drawing bar: current level, snapping, grid step, and the properties of new paths.
 
-use eframe::egui::{ComboBox, DragValue, Id, Label, Ui};
+use eframe::egui::{Checkbox, ComboBox, DragValue, Id, Label, PopupCloseBehavior, Ui};
 use guideway_document::{Document, levels_by_height};
 use guideway_layout::Direction;
 
 use super::new_edges::NewEdgesPanel;
 use super::still_part::StillPart;
 use crate::action::Action;
-use crate::display_settings::DisplaySettings;
+use crate::canvas::Canvas;
+use crate::display_settings::{DisplaySettings, GRID_STEPS_M};
 use crate::editing::EditTask;
 use crate::files::OpenFiles;
 use crate::language::{Language, direction_name, language, say, t};
 use crate::tools::Tools;
 
 /// Steps of the grid to choose from, in meters.
-const GRID_STEPS_M: [f64; 8] = [0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0];
+const STEP_CHOICES_M: [f64; 8] = [0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0];
 
 /// The parts whose fields the bar edits.
 pub(crate) struct DrawingBar<'a> {
     pub(crate) files: &'a OpenFiles,
+    pub(crate) canvas: &'a Canvas,
     pub(crate) tools: &'a mut Tools,
     pub(crate) settings: &'a mut DisplaySettings,
     pub(crate) new_edges: &'a mut NewEdgesPanel,
@@ -32,7 +34,9 @@ pub(crate) struct DrawingKey {
     file: usize,
     document: Option<(u64, Option<u32>)>,
     snaps: [bool; 2],
-    grid_step_m: Option<f64>,
+    has_grid: bool,
+    /// The step of the grid that the user gave, and the one that is shown.
+    grid_steps_m: [Option<f64>; 2],
     direction: Direction,
     vehicle_types: Vec<String>,
 }
@@ -52,7 +56,8 @@ impl DrawingBar<'_> {
             file: self.files.active_index(),
             document: document.map(|document| (document.revision(), document.level())),
             snaps: [self.tools.snaps.to_objects, self.tools.snaps.to_grid],
-            grid_step_m: self.settings.grid_step_m,
+            has_grid: self.settings.has_grid,
+            grid_steps_m: [self.settings.grid_step_m, self.shown_step_m()],
             direction: template.direction,
             vehicle_types: types.map(|(name, _)| name.clone()).collect(),
         };
@@ -72,7 +77,9 @@ impl DrawingBar<'_> {
                 .on_hover_text(t(
                     "Ends, middles, crossings, tangents and perpendiculars; Alt snaps to nothing",
                 ));
-            let grid = ui.checkbox(&mut self.tools.snaps.to_grid, t("grid of"));
+            let grid = Checkbox::new(&mut self.tools.snaps.to_grid, t("grid of"));
+            let grid = ui.add_enabled(self.settings.has_grid, grid);
+            let grid = grid.on_disabled_hover_text(t("The grid is hidden; G shows it"));
             self.show_grid_step(ui, grid.id);
             ui.separator();
             let template = &self.tools.template;
@@ -99,28 +106,51 @@ impl DrawingBar<'_> {
         });
     }
 
+    /// Distance of the grid lines in the present view, in meters.
+    fn shown_step_m(&self) -> Option<f64> {
+        let view = self.canvas.camera.view()?;
+        Some(self.settings.grid_step_m(&view, self.canvas.px_per_point()))
+    }
+
     /// The step of the grid: chosen, typed, or following the scale.
     fn show_grid_step(&mut self, ui: &mut Ui, label: Id) {
+        let text = step_text(self.settings.grid_step_m, self.shown_step_m());
         let step_m = &mut self.settings.grid_step_m;
-        let text = |step_m: Option<f64>| match step_m {
-            Some(step_m) => format!("{step_m} m"),
-            None => t("automatic").to_owned(),
-        };
         ComboBox::from_id_salt("grid step")
-            .selected_text(text(*step_m))
-            .width(80.0)
+            .selected_text(text)
+            .width(120.0)
+            // A click on the field begins to type.
+            .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
             .show_ui(ui, |ui| {
-                let each = GRID_STEPS_M.map(Some).into_iter();
+                let each = STEP_CHOICES_M.map(Some).into_iter();
                 for choice in std::iter::once(None).chain(each) {
-                    ui.selectable_value(step_m, choice, text(choice));
+                    let choice_text = step_text(choice, None);
+                    if ui.selectable_value(step_m, choice, choice_text).clicked() {
+                        ui.close();
+                    }
                 }
                 if let Some(step_m) = step_m {
                     let value = DragValue::new(step_m).speed(0.01).suffix(" m");
-                    ui.add(value.range(0.001..=1000.0)).labelled_by(label);
+                    ui.add(value.range(GRID_STEPS_M)).labelled_by(label);
                 }
             })
             .response
             .labelled_by(label);
+    }
+}
+
+/// `0.5 m`, `automatic (5 m)`; where the lines of a given step would be too close, also the step
+/// that is shown: `0.05 m (0.5 m shown)`.
+fn step_text(given_m: Option<f64>, shown_m: Option<f64>) -> String {
+    // Powers of ten are not exact.
+    let meters = |step_m: f64| format!("{} m", (step_m * 1e9).round() / 1e9);
+    match (given_m.map(meters), shown_m.map(meters)) {
+        (None, None) => t("automatic").to_owned(),
+        (None, Some(step)) => say!("automatic ({step})", step),
+        (Some(step), Some(shown)) if shown != step => {
+            say!("{step} ({shown} shown)", step, shown)
+        }
+        (Some(step), _) => step,
     }
 }
 
@@ -146,4 +176,22 @@ fn show_level(ui: &mut Ui, document: &Document, actions: &mut Vec<Action>) {
         .response
         .labelled_by(label.id)
         .on_hover_text(t("Shows this level only, and draws on it"));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn step_tells_what_is_given_and_what_is_shown() {
+        for (given_m, shown_m, text) in [
+            (None, None, "automatic"),
+            (None, Some(5.0), "automatic (5 m)"),
+            (Some(0.05), Some(0.05), "0.05 m"),
+            (Some(1.1), Some(1.1 * 10.0), "1.1 m (11 m shown)"),
+            (Some(0.25), None, "0.25 m"),
+        ] {
+            assert_eq!(step_text(given_m, shown_m), text);
+        }
+    }
 }

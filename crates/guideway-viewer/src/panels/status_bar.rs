@@ -2,7 +2,9 @@
 //! the pointer.
 
 use eframe::egui::{Label, Ui};
-use guideway_document::{Document, Element, Hit, text_format};
+use guideway_document::{Document, Element, Hit, Snapped, text_format};
+use guideway_scene::View;
+use guideway_spline::Point;
 
 use super::digits::Digits;
 use super::findings_panel::finding_text;
@@ -10,7 +12,7 @@ use super::selection_panel::summary;
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
-use crate::files::OpenFiles;
+use crate::files::{OpenFiles, layer_tool_context};
 use crate::language::{direction_name, grouped, say, t};
 use crate::tools::{HIT_RADIUS_PX, HoverTarget, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
 
@@ -99,19 +101,30 @@ impl StatusBar<'_> {
         ))
     }
 
-    /// Shows the position of the pointer and the scale, in fields of constant width.
+    /// The place to which a click at the pointer snaps.
+    fn snapped(&self, ui: &Ui, view: View, at_m: Point<f64>) -> Option<Snapped> {
+        let px_per_point = self.canvas.px_per_point();
+        let context = layer_tool_context(self.files.active(), view, self.settings, px_per_point);
+        let modifiers = ui.input(|input| input.modifiers);
+        self.tools.snap_target(&context, at_m, modifiers)
+    }
+
+    /// Shows the position of the pointer, or of what it snaps to, and the scale, in fields of
+    /// constant width.
     fn show_position(&self, ui: &mut Ui) {
         let Some(view) = self.canvas.camera.view() else {
             return;
         };
         let at_m = self.canvas.pointer_px().map(|at| view.world_from_pixel(at));
+        let snapped = at_m.and_then(|at_m| self.snapped(ui, view, at_m));
+        let at_m = snapped.map(|snapped| snapped.at_m).or(at_m);
         let position = at_m.map_or_else(
             || "x           y          ".to_owned(),
             |at_m| format!("x {:>9.3} y {:>9.3} m", at_m.x, at_m.y),
         );
         let digits = Digits::new(ui);
         let position = digits.show(ui, &position);
-        position.on_hover_text(t("Position of the pointer"));
+        position.on_hover_text(t("Position of the pointer, or of what it snaps to"));
         ui.separator();
         let scale = scale_text(view.px_per_m() / self.canvas.px_per_point());
         let scale = digits.show(ui, &scale);

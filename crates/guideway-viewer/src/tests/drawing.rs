@@ -186,22 +186,6 @@ fn points_snap_to_places_of_paths_and_alt_suspends_it() {
 }
 
 #[test]
-fn points_snap_to_the_grid_that_is_shown() {
-    let mut window = new_layout();
-    window.app().tools.snaps.to_grid = true;
-    window.app().settings.grid_step_m = Some(0.25);
-    window.key(NONE, Key::W);
-    click(&mut window, 3.3, 4.1);
-    assert!(node_at(window.document(), 3.25, 4.0).is_some());
-    window.app().settings.grid_step_m = None;
-    let app = window.app();
-    let view = app.canvas.camera.view().unwrap();
-    let step_m = app.settings.grid_step_m(&view, app.canvas.px_per_point());
-    click(&mut window, 1.2 * step_m, 2.1 * step_m);
-    assert!(node_at(window.document(), step_m, 2.0 * step_m).is_some());
-}
-
-#[test]
 fn escape_takes_back_what_is_drawn_and_undo_its_last_point() {
     let mut window = new_layout();
     window.key(NONE, Key::C);

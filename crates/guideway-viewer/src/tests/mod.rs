@@ -38,6 +38,7 @@ mod route;
 mod safety;
 mod schema;
 pub(crate) mod services;
+mod snapping;
 mod soak;
 mod table;
 mod test_window;

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{
-    Context, Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2,
+    Context, Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Shape, TouchPhase, Vec2,
 };
 use egui_kittest::Harness;
 use egui_kittest::kittest::{By, Queryable};
@@ -158,6 +158,14 @@ impl TestWindow {
         app.canvas.origin() + Vec2::new(pixel.x as f32, pixel.y as f32)
     }
 
+    /// Moves the pointer to a position of the world, in meters.
+    pub(super) fn hover(&mut self, x: f64, y: f64) -> Pos2 {
+        let at = self.at(x, y);
+        self.harness.event(Event::PointerMoved(at));
+        self.harness.run_steps(3);
+        at
+    }
+
     pub(super) fn click(&mut self, at: Pos2) {
         self.click_with(at, Modifiers::NONE);
     }
@@ -274,6 +282,16 @@ impl TestWindow {
         });
         self.harness.step();
     }
+}
+
+/// The texts that the last frame painted.
+pub(super) fn drawn_texts(window: &TestWindow) -> Vec<String> {
+    let shapes = window.harness.output().shapes.iter();
+    let texts = shapes.filter_map(|shape| match &shape.shape {
+        Shape::Text(text) => Some(text.galley.text().to_owned()),
+        _ => None,
+    });
+    texts.collect()
 }
 
 /// The text field with this value.

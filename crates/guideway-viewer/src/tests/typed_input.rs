@@ -1,26 +1,16 @@
 //! Typed lengths, angles, coordinates and radii, in place of clicks.
 
-use eframe::egui::{Event, Key, Modifiers, Shape};
+use eframe::egui::{Event, Key, Modifiers};
 use guideway_scene::Table;
 use guideway_spline::Point;
 
 use super::drawing::{click, new_layout, node_at};
 use super::services::lanes;
-use super::test_window::TestWindow;
+use super::test_window::{TestWindow, drawn_texts};
 use crate::tools::Gesture;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
-
-/// The texts that the last frame painted.
-fn drawn_texts(window: &TestWindow) -> Vec<String> {
-    let shapes = window.harness.output().shapes.iter();
-    let texts = shapes.filter_map(|shape| match &shape.shape {
-        Shape::Text(text) => Some(text.galley.text().to_owned()),
-        _ => None,
-    });
-    texts.collect()
-}
 
 #[test]
 fn typed_points_are_exact_and_a_right_click_finishes() {

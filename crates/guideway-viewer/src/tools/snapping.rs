@@ -15,6 +15,7 @@ const DIRECTIONS: u32 = 24;
 pub(crate) struct SnapSettings {
     /// Places of paths: ends, middles, crossings, feet, tangents.
     pub(crate) to_objects: bool,
+    /// The lines of the grid, while they are shown.
     pub(crate) to_grid: bool,
 }
 
@@ -52,7 +53,7 @@ pub(super) fn snap_point(
         node_reach_m: Some(context.hit_radius_m()),
         moving_node,
         object_reach_m: to_objects.then(|| context.hit_radius_m()),
-        grid_m: snaps.to_grid.then_some(context.grid_step_m),
+        grid_m: context.grid_step_m.filter(|_| snaps.to_grid),
         directions: modifiers.shift.then_some(DIRECTIONS),
     };
     document.snap(&snap, at_m, from_m)
@@ -80,7 +81,7 @@ pub(super) fn snap_move(
         return by_m;
     };
     let snap = SnapOptions {
-        grid_m: snaps.to_grid.then_some(context.grid_step_m),
+        grid_m: context.grid_step_m.filter(|_| snaps.to_grid),
         directions: modifiers.shift.then_some(DIRECTIONS),
         ..SnapOptions::default()
     };

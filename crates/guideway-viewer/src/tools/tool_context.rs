@@ -19,8 +19,8 @@ pub(crate) struct ToolContext<'a> {
     pub(crate) line_rule: LineRule,
     /// The kinds of elements that are shown, and can be picked.
     pub(crate) picks: MarkedKinds,
-    /// Distance of the lines of the grid, in meters.
-    pub(crate) grid_step_m: f64,
+    /// Distance of the lines of the grid, in meters; `None` while they are not shown.
+    pub(crate) grid_step_m: Option<f64>,
 }
 
 impl<'a> ToolContext<'a> {

@@ -42,7 +42,7 @@ impl Bench {
                 stations: false,
                 ..MarkedKinds::default()
             },
-            grid_step_m: 1.0,
+            grid_step_m: Some(1.0),
         };
         if let Some(ToolEffect::Edit(edit)) = self.tools.handle(event, &context) {
             let repaint: RepaintHandle = Arc::new(|| {});
