@@ -5,7 +5,7 @@ use eframe::egui::{
     Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureId, Vec2, pos2,
 };
 use guideway_document::decorations::{
-    Corner, DecorationStyle, MarkedKinds, handles, hide_covered_texts, outline, scale_bar,
+    Corner, DecorationStyle, handles, hide_covered_texts, outline, scale_bar,
 };
 use guideway_document::{Document, Element, PathSet};
 use guideway_scene::{DrawList, View};

@@ -8,7 +8,7 @@ use guideway_layout::Layout;
 use guideway_scene::View;
 use guideway_spline::Point;
 
-use super::paint_draw_list::{color32, paint_text_box};
+use super::paint_draw_list::{TextBox, color32};
 use super::paint_gesture::{HOVER_COLOR, MIN_OUTLINE_WIDTH, paint_outline};
 use super::screen::Screen;
 use super::shape_text::{is_bent, shape_text};
@@ -74,14 +74,14 @@ impl Draft<'_> {
             }
         }
         let background = color32(settings.background()).gamma_multiply(BACKGROUND_OPACITY);
-        paint_text_box(
-            painter,
-            last + Vec2::new(12.0, -12.0),
-            &text,
-            FontId::proportional(TEXT_POINTS),
-            color32(settings.decoration_style(1.0).ink),
+        let text_box = TextBox {
+            text: &text,
+            font: FontId::proportional(TEXT_POINTS),
+            color: color32(settings.decoration_style(1.0).ink),
             background,
-        );
+            offset: Vec2::new(12.0, -12.0),
+        };
+        text_box.paint(painter, last);
     }
 }
 

@@ -14,6 +14,9 @@ use super::screen::Screen;
 /// Derived: four copies toward the corners reach as far as the halo.
 const HALO_PART: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
+/// Greatest height of a [`TextBox`] above or below its point, in points.
+const BOX_REACH: f32 = 24.0;
+
 /// Paints all fills as one mesh, then the texts.
 pub(super) fn paint_draw_list(painter: &Painter, screen: Screen, list: &DrawList) {
     let mut mesh = Mesh::default();
@@ -70,20 +73,41 @@ fn paint_text(painter: &Painter, screen: Screen, text: &TextLine) {
     painter.add(copy(Vec2::ZERO, color));
 }
 
-/// Paints a text over a filled box; `left_middle` is the middle of its left edge.
-pub(super) fn paint_text_box(
-    painter: &Painter,
-    left_middle: Pos2,
-    text: &str,
-    font: FontId,
-    color: Color32,
-    background: Color32,
-) {
-    let galley = painter.layout_no_wrap(text.to_owned(), font, color);
-    let corner = left_middle - Vec2::new(0.0, galley.size().y / 2.0);
-    let rect = Rect::from_min_size(corner, galley.size());
-    painter.rect_filled(rect, 2.0, background);
-    painter.galley(corner, galley, color);
+/// A text over a filled box beside a point.
+pub(super) struct TextBox<'a> {
+    pub(super) text: &'a str,
+    pub(super) font: FontId,
+    pub(super) color: Color32,
+    pub(super) background: Color32,
+    /// From the point to the middle of the left edge of the box.
+    pub(super) offset: Vec2,
+}
+
+impl TextBox<'_> {
+    /// Paints the box inside of the clip rectangle: on the other side of the point where it would
+    /// exceed the right edge, and higher or lower near the other edges.
+    pub(super) fn paint(&self, painter: &Painter, at: Pos2) {
+        let font = self.font.clone();
+        let galley = painter.layout_no_wrap(self.text.to_owned(), font, self.color);
+        let rect = self.place(galley.size(), painter.clip_rect(), at);
+        painter.rect_filled(rect, 2.0, self.background);
+        painter.galley(rect.min, galley, self.color);
+    }
+
+    /// The place of a box of this size.
+    fn place(&self, size: Vec2, clip: Rect, at: Pos2) -> Rect {
+        let (left, most) = (at.x + self.offset.x, clip.right() - size.x);
+        let left = match left <= most {
+            true => left,
+            // The point itself may be outside.
+            false => most.min(at.x - self.offset.x - size.x),
+        };
+        // Boxes at one point keep their distance.
+        let (top, bottom) = (clip.top() + BOX_REACH, clip.bottom() - BOX_REACH);
+        let middle = at.y.min(bottom).max(top) + self.offset.y;
+        let corner = pos2(left.max(clip.left()), middle - size.y / 2.0);
+        Rect::from_min_size(corner, size)
+    }
 }
 
 /// Straight alpha to the premultiplied alpha of egui.
@@ -133,5 +157,33 @@ mod tests {
             let at = text.pos.x + anchor as f32 * width;
             assert!((at - place).abs() < 0.01, "{anchor}: {at}");
         }
+    }
+
+    #[test]
+    fn boxes_stay_inside_and_apart_at_every_edge() {
+        let clip = Rect::from_min_size(pos2(10.0, 20.0), Vec2::new(300.0, 200.0));
+        let size = Vec2::new(120.0, 16.0);
+        let place = |offset: f32, at: Pos2| {
+            let text_box = TextBox {
+                text: "",
+                font: FontId::default(),
+                color: Color32::BLACK,
+                background: Color32::WHITE,
+                offset: Vec2::new(12.0, offset),
+            };
+            text_box.place(size, clip, at)
+        };
+        for x in [-50.0, 10.0, 100.0, 250.0, 310.0, 400.0] {
+            for y in [-50.0, 20.0, 30.0, 120.0, 210.0, 220.0, 400.0] {
+                let at = pos2(x, y);
+                let [above, below] = [-12.0, 14.0].map(|offset| place(offset, at));
+                for rect in [above, below] {
+                    assert!(clip.contains_rect(rect), "{at:?} {rect:?}");
+                    assert!(!rect.x_range().contains(x), "{at:?} {rect:?}");
+                }
+                assert!(above.bottom() < below.top(), "{at:?}");
+            }
+        }
+        assert_eq!(place(-12.0, pos2(100.0, 120.0)).min, pos2(112.0, 100.0));
     }
 }

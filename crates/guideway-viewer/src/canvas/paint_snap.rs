@@ -4,7 +4,7 @@ use eframe::egui::{FontId, Painter, Pos2, Shape, Stroke, StrokeKind, Vec2, vec2}
 use guideway_document::{SnapTarget, Snapped};
 use guideway_scene::View;
 
-use super::paint_draw_list::{color32, paint_text_box};
+use super::paint_draw_list::{TextBox, color32};
 use super::paint_gesture::HOVER_COLOR;
 use super::screen::Screen;
 use crate::display_settings::DisplaySettings;
@@ -27,14 +27,14 @@ pub(super) fn paint_snap(
     let Some(target) = snapped.to else { return };
     let at = screen.point(view.pixel_from_world(snapped.at_m));
     painter.extend(marker(target, at));
-    paint_text_box(
-        painter,
-        at + NAME_OFFSET,
-        t(target.name()),
-        FontId::proportional(TEXT_POINTS),
-        color32(settings.decoration_style(1.0).ink),
-        color32(settings.background()).gamma_multiply(0.75),
-    );
+    let name = TextBox {
+        text: t(target.name()),
+        font: FontId::proportional(TEXT_POINTS),
+        color: color32(settings.decoration_style(1.0).ink),
+        background: color32(settings.background()).gamma_multiply(0.75),
+        offset: NAME_OFFSET,
+    };
+    name.paint(painter, at);
 }
 
 /// The marks of CAD: a circle at a node, a square at an end, a triangle at a middle, a cross at a

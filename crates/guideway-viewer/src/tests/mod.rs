@@ -23,6 +23,7 @@ mod groups;
 mod lane_network;
 mod layers;
 mod levels;
+mod long_texts;
 mod methods;
 mod network;
 mod panels;

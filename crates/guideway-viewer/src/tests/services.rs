@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, SystemTime};
 
-use guideway_compose::{FloorPlan, VectorFormat};
+use guideway_compose::{ComposeError, FloorPlan, VectorFormat};
 use guideway_cpu::Cpu;
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, NewPath, Value};
@@ -287,11 +287,13 @@ impl AppServices for TestServices {
 
     fn render_swept_areas(
         &self,
-        _layout: &Layout,
+        layout: &Layout,
         rows: &[u32],
-        _vehicle: EnvelopeSource,
+        vehicle: EnvelopeSource,
         view: &View,
     ) -> Result<Frame, UserError> {
+        let any = vehicle.require_any(layout);
+        any.map_err(|reason| ComposeError::NoEnvelope { reason })?;
         let mut swept = locked(&self.swept);
         *swept = rows.to_vec();
         Ok(Frame::new(view.size()))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{Button, ComboBox, TextEdit, Ui};
+use eframe::egui::{Button, Color32, ComboBox, Response, TextEdit, TextStyle, Ui};
 use guideway_document::Document;
 use guideway_layout::Direction;
 
@@ -19,6 +19,20 @@ const BUTTON_WIDTH: f32 = 42.0;
 /// Width of a field with a button behind it, in points.
 pub(super) fn field_width(ui: &Ui) -> f32 {
     (ui.available_width() - BUTTON_WIDTH).max(BUTTON_WIDTH)
+}
+
+/// Tells the whole text of a list under the pointer, if there is too little room for it.
+fn tell_if_cut(ui: &Ui, list: Response, text: &str) {
+    if !list.contains_pointer() {
+        return;
+    }
+    let font = TextStyle::Button.resolve(ui.style());
+    let whole = (ui.painter()).layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    let spacing = ui.spacing();
+    let beside_text = 2.0 * spacing.button_padding.x + spacing.icon_width + spacing.icon_spacing;
+    if whole.size().x > list.rect.width() - beside_text {
+        list.on_hover_text(text);
+    }
 }
 
 /// A choice of words; an empty one removes the property. Returns the one under the pointer.
@@ -57,7 +71,8 @@ pub(super) fn choice(
     let width = field_width(ui);
     ui.scope(|ui| {
         ui.set_max_width(width);
-        combo.width(width).show_ui(ui, choices);
+        let list = combo.width(width).show_ui(ui, choices);
+        tell_if_cut(ui, list.response, shown);
     });
     hovered
 }
@@ -134,9 +149,9 @@ pub(super) fn vehicle_types(
         None => t("several values").to_owned(),
     };
     let combo = ComboBox::from_id_salt("vehicle types")
-        .selected_text(text)
+        .selected_text(text.as_str())
         .truncate();
-    combo.show_ui(ui, |ui| {
+    let list = combo.show_ui(ui, |ui| {
         for name in &shown.facts.all_types {
             let types = present.unwrap_or_default();
             let mut is_on = types.contains(name);
@@ -161,6 +176,7 @@ pub(super) fn vehicle_types(
             }
         });
     });
+    tell_if_cut(ui, list.response, &text);
 }
 
 fn set_types(shown: &Shown, types: Vec<String>) -> Action {
