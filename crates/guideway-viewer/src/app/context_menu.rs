@@ -59,6 +59,7 @@ impl App {
         CommandState {
             files: &self.files,
             settings: &self.settings,
+            has_floor_plan: !self.floor_plan.is_empty(),
             has_swept_areas: self.swept_areas.is_visible,
             has_side_panel: self.side.is_open(window_width),
             bottom: self.bottom.view,

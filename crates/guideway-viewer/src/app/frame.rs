@@ -7,6 +7,7 @@ use eframe::egui::{CentralPanel, Context, CursorIcon, Frame, Panel, Ui, Viewport
 use guideway_document::Document;
 use guideway_spline::Affine;
 
+use super::basics::tool_context;
 use super::state::App;
 use super::waiting::Input;
 use crate::canvas::{CanvasPainter, CanvasPlace};
@@ -164,9 +165,10 @@ impl App {
             ui.ctx().set_cursor_icon(cursor);
         } else if self.bottom.picks_places() && self.canvas.pointer_px().is_some() {
             ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
-        } else if self.canvas.pointer_px().is_some() {
-            ui.ctx()
-                .set_cursor_icon(self.tools.cursor(self.files.document()));
+        } else if let Some(at_px) = self.canvas.pointer_px()
+            && let Some(context) = tool_context(&self.files, &self.canvas, &self.settings)
+        {
+            ui.ctx().set_cursor_icon(self.tools.cursor(&context, at_px));
         }
         let Some(view) = self.canvas.camera.view() else {
             return;

@@ -8,6 +8,7 @@ use guideway_spline::{Bounds, Point};
 use super::basics::{release_keyboard, tool_context};
 use super::state::App;
 use crate::action::{Action, GroupRequest};
+use crate::canvas::POINT_M;
 use crate::command::Command;
 use crate::editing::EditTask;
 use crate::file_purpose::PromptKind;
@@ -18,6 +19,8 @@ use crate::tools::{PointerEvent, Tool};
 
 /// Distance of one key press of a pan command, in pixels.
 const PAN_STEP_PX: f64 = 80.0;
+/// Meters of the floor per meter of the screen, by the command for a fixed scale: that of plans.
+const PLAN_SCALE: f64 = 100.0;
 /// Scale factor of one zoom command.
 const ZOOM_STEP: f64 = 1.25;
 
@@ -186,6 +189,7 @@ impl App {
             }
             Command::ZoomToAll
             | Command::ZoomToSelection
+            | Command::ZoomToScale
             | Command::ZoomIn
             | Command::ZoomOut
             | Command::Back
@@ -220,6 +224,10 @@ impl App {
                 if let Some(bounds) = document.and_then(Document::selection_bounds) {
                     camera.zoom_to(bounds);
                 }
+            }
+            Command::ZoomToScale => {
+                let px_per_m = self.canvas.px_per_point() / (PLAN_SCALE * POINT_M);
+                self.canvas.camera.scale_center(px_per_m);
             }
             Command::ZoomIn => camera.zoom_center(ZOOM_STEP),
             Command::ZoomOut => camera.zoom_center(1.0 / ZOOM_STEP),

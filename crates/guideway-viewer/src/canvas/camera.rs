@@ -175,6 +175,14 @@ impl Camera {
         });
     }
 
+    /// Shows the center at this scale.
+    pub(crate) fn scale_center(&mut self, px_per_m: f64) {
+        self.move_to(Position {
+            px_per_m,
+            ..self.position
+        });
+    }
+
     /// Shows a whole box; enters the view history.
     pub(crate) fn fit(&mut self, bounds: Bounds<f64>) {
         let Some(size) = self.size else {

@@ -34,4 +34,5 @@ pub(crate) use paint_gesture::{HOVER_COLOR, SELECTION_COLOR};
 pub(crate) use paint_legends::{legends, shown_legends};
 pub(crate) use paint_network::{CUT_COLOR, JOINED_COLOR, STATION_COLOR};
 pub(crate) use paint_tools::change_color;
+pub(crate) use screen::POINT_M;
 pub(crate) use shape_text::shape_text;

@@ -4,6 +4,9 @@ use eframe::egui::{Pos2, Rect, Vec2};
 use guideway_scene::View;
 use guideway_spline::Point;
 
+/// Size of a point of a screen at 96 points per inch, in meters.
+pub(crate) const POINT_M: f64 = 0.0254 / 96.0;
+
 /// The rectangle of the picture in the window.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Screen {

@@ -44,7 +44,7 @@ pub(crate) const MENUS: [Menu; 7] = [
     Menu {
         name: "View",
         groups: &[
-            &[ZoomToAll, ZoomToSelection, ZoomIn, ZoomOut],
+            &[ZoomToAll, ZoomToSelection, ZoomToScale, ZoomIn, ZoomOut],
             &[Back, Forward],
             &[PanLeft, PanRight, PanUp, PanDown],
             &[NextFile],

@@ -60,6 +60,7 @@ pub(crate) enum Command {
     Refine,
     ZoomToAll,
     ZoomToSelection,
+    ZoomToScale,
     ZoomIn,
     ZoomOut,
     PanLeft,
@@ -113,6 +114,7 @@ impl Command {
                 | Self::PanDown
                 | Self::ZoomToAll
                 | Self::ZoomToSelection
+                | Self::ZoomToScale
                 | Self::ZoomIn
                 | Self::ZoomOut
                 | Self::Back
@@ -176,6 +178,7 @@ impl Command {
             Self::Refine => t("Refine: insert control points"),
             Self::ZoomToAll => t("Zoom to all"),
             Self::ZoomToSelection => t("Zoom to selection"),
+            Self::ZoomToScale => t("Zoom to 1:100"),
             Self::ZoomIn => t("Zoom in"),
             Self::ZoomOut => t("Zoom out"),
             Self::PanLeft => t("Pan left"),

@@ -54,6 +54,7 @@ pub(crate) const SHORTCUTS: &[(Command, KeyboardShortcut)] = &[
     on(Command::ZoomToAll, NONE, Key::Home),
     on(Command::ZoomToAll, CTRL, Key::Num0),
     on(Command::ZoomToSelection, SHIFT, Key::F),
+    on(Command::ZoomToScale, CTRL, Key::Num1),
     on(Command::ZoomIn, NONE, Key::Plus),
     on(Command::ZoomIn, NONE, Key::Equals),
     on(Command::ZoomOut, NONE, Key::Minus),

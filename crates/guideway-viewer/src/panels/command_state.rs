@@ -11,6 +11,7 @@ use crate::tools::Tool;
 pub(crate) struct CommandState<'a> {
     pub(crate) files: &'a OpenFiles,
     pub(crate) settings: &'a DisplaySettings,
+    pub(crate) has_floor_plan: bool,
     /// True if swept areas are shown.
     pub(crate) has_swept_areas: bool,
     /// True if the side panel is shown.
@@ -36,6 +37,9 @@ impl CommandState<'_> {
 
     /// Returns `true` if a command has something to act on.
     pub(crate) fn is_possible(&self, command: Command) -> bool {
+        if command == Command::PlaceFloorPlan {
+            return self.has_floor_plan;
+        }
         let Some(layer) = self.files.active() else {
             return !needs_file(command);
         };
@@ -61,7 +65,7 @@ impl CommandState<'_> {
     }
 
     /// Returns `true` if a command is a switch that is on.
-    pub(super) fn is_on(&self, command: Command) -> bool {
+    pub(crate) fn is_on(&self, command: Command) -> bool {
         match command {
             Command::Arrows => self.settings.has_arrows,
             Command::Symbols => self.settings.has_symbols,
@@ -159,5 +163,16 @@ fn needs_file(command: Command) -> bool {
                 | Command::ShowAll
                 | Command::FinishPath
                 | Command::Paste
+                | Command::Table
+                | Command::Route
+                | Command::Compare
+                | Command::Network
+                | Command::ToolPoints
+                | Command::ToolLine
+                | Command::ToolArc
+                | Command::ToolCurve
+                | Command::ToolBezier
+                | Command::ToolNode
+                | Command::ToolStation
         )
 }

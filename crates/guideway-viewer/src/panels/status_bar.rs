@@ -9,15 +9,12 @@ use guideway_spline::Point;
 use super::digits::Digits;
 use super::findings_panel::finding_text;
 use super::selection_panel::summary;
-use crate::canvas::Canvas;
+use crate::canvas::{Canvas, POINT_M};
 use crate::display_settings::DisplaySettings;
 use crate::editing::MarkedSeverities;
 use crate::files::{OpenFiles, layer_tool_context};
 use crate::language::{direction_name, grouped, say, t};
 use crate::tools::{HIT_RADIUS_PX, HoverTarget, MAX_HOVER_CANDIDATES, OtherHit, Tool, Tools};
-
-/// Size of a point of a screen at 96 points per inch, in meters.
-const POINT_M: f64 = 0.0254 / 96.0;
 
 /// The content of the status bar.
 pub(crate) struct StatusBar<'a> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{CursorIcon, Event, Key, Modifiers, PointerButton, Pos2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::{By, NodeT, Queryable};
 
 use super::services::{TestServices, lanes};
@@ -152,6 +152,8 @@ fn settings_dialog_changes_theme_and_grid() {
     let licenses = env!("CARGO_PKG_LICENSE");
     let line = window.harness.query_by_label_contains(licenses);
     assert!(line.is_some());
+    let version = concat!("Guideway ", env!("CARGO_PKG_VERSION"));
+    assert!(window.harness.query_by_label(version).is_some());
 }
 
 #[test]
@@ -175,24 +177,6 @@ fn legend_is_about_the_colors_that_are_drawn() {
     window.app().settings.is_density = true;
     window.wait(|app| !shown_legends(&app.files, &app.settings).is_empty());
     assert_eq!(title(&mut window).as_deref(), Some("paths per pixel"));
-}
-
-#[test]
-fn cursor_tells_what_a_press_would_do() {
-    let mut window = TestWindow::showing(lanes(2));
-    let cursor = |window: &mut TestWindow, y: f64| {
-        let at = window.at(5.0, y);
-        window.harness.event(Event::PointerMoved(at));
-        window.harness.run_steps(3);
-        let app = window.app();
-        app.tools.cursor(app.files.document())
-    };
-    assert_eq!(cursor(&mut window, 0.5), CursorIcon::Default);
-    assert_eq!(cursor(&mut window, 0.0), CursorIcon::PointingHand);
-    window.key(Modifiers::COMMAND, Key::A);
-    assert_eq!(cursor(&mut window, 0.0), CursorIcon::Move);
-    window.key(NONE, Key::D);
-    assert_eq!(cursor(&mut window, 0.0), CursorIcon::Crosshair);
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod appearance;
 mod arranging;
 mod background;
 mod chrome;
+mod commands;
 mod complete_edits;
 mod content;
 mod drag;

@@ -94,14 +94,10 @@ fn pointer_means_the_node_or_station_that_a_click_would_select() {
         assert_eq!(rings(&window, HOVER_COLOR), 1);
         let lines = painted(&window, |shape| is_line(shape, HOVER_COLOR));
         assert!(lines.is_empty(), "the path is below: {lines:?}");
-        let app = window.app();
-        let document = app.files.document();
-        assert_eq!(app.tools.cursor(document), CursorIcon::PointingHand);
+        assert_eq!(window.cursor(), CursorIcon::PointingHand);
         window.click(at);
-        let app = window.app();
-        let document = app.files.document();
-        assert_eq!(app.tools.cursor(document), CursorIcon::Move);
-        let selected = document.unwrap().selected();
+        assert_eq!(window.cursor(), CursorIcon::Move);
+        let selected = window.document().selected();
         assert_eq!(selected.nodes.len() + selected.stations.len(), 1);
         assert!(selected.paths.is_empty());
     }

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{
-    Context, Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Shape, TouchPhase, Vec2,
+    Context, CursorIcon, Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Shape,
+    TouchPhase, Vec2,
 };
 use egui_kittest::Harness;
 use egui_kittest::kittest::{By, Queryable};
@@ -164,6 +165,11 @@ impl TestWindow {
         self.harness.event(Event::PointerMoved(at));
         self.harness.run_steps(3);
         at
+    }
+
+    /// The cursor of the last frame.
+    pub(super) fn cursor(&self) -> CursorIcon {
+        self.harness.output().platform_output.cursor_icon
     }
 
     pub(super) fn click(&mut self, at: Pos2) {
