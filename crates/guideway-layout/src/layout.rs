@@ -241,6 +241,8 @@ pub struct Provenance {
     pub format: String,
     /// Version of the format, derived from the structure of the file.
     pub format_version: String,
+    /// Meters per unit of the numbers of a drawing that does not state it, as its reader assumed.
+    pub assumed_unit_m: Option<f64>,
     /// Numbers of elements in the source, under the names of the format, such as `("edges", 12)`.
     pub counts: Vec<(String, u64)>,
     /// Text of the file, for formats whose writer copies what did not change.

@@ -238,6 +238,8 @@ fn provenance(layouts: &[Layout]) -> Provenance {
         source: of(|p| &p.source, ", "),
         format: of(|p| &p.format, " + "),
         format_version: of(|p| &p.format_version, " + "),
+        // Drawings may differ in it.
+        assumed_unit_m: None,
         counts,
         // A writer could copy the fields of one source only.
         text: None,

@@ -78,6 +78,14 @@ impl FloorPlan {
         }
     }
 
+    /// Meters per unit of a drawing that does not state it, as its reader assumed.
+    pub fn assumed_unit_m(&self) -> Option<f64> {
+        match self {
+            Self::Paths(scene, _) => scene.layout().provenance.assumed_unit_m,
+            Self::Image(_) => None,
+        }
+    }
+
     /// The plan with light and dark exchanged if it is an image on paper; `None` for others. On a
     /// dark background paper would outshine all else.
     pub fn negative_of_paper(&self) -> Option<Self> {

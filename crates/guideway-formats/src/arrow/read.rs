@@ -354,6 +354,7 @@ impl<'a> TableReader<'a> {
             source: name.to_owned(),
             format: Format::Arrow.name().to_owned(),
             format_version: version.to_string(),
+            assumed_unit_m: None,
             counts: vec![
                 ("rows".into(), rows),
                 ("record batches".into(), self.batch_count),

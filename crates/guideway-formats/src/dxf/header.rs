@@ -54,7 +54,7 @@ const IN_INCHES: [i64; 2] = [3, 4];
 const INCH_M: f64 = 0.0254;
 
 /// Meters per drawing unit. Without a unit, reports a finding and assumes millimeters, or inches if
-/// lengths are displayed as feet and inches.
+/// lengths are displayed as feet and inches; the layout says so.
 pub(super) fn insertion_unit_m(builder: &mut Builder<'_>, units: UnitVariables) -> f64 {
     let code = units.insertion;
     let known = usize::try_from(code)
@@ -77,7 +77,9 @@ pub(super) fn insertion_unit_m(builder: &mut Builder<'_>, units: UnitVariables) 
     };
     let remedy = "If that is wrong, set the unit of the drawing in the CAD program";
     builder.report(Code::AssumedUnit, &at, message, remedy);
-    if is_in_inches { INCH_M } else { DEFAULT_UNIT_M }
+    let unit_m = if is_in_inches { INCH_M } else { DEFAULT_UNIT_M };
+    builder.layout.provenance.assumed_unit_m = Some(unit_m);
+    unit_m
 }
 
 /// The release name for users, such as `2007 (AC1021)`, from the `$ACADVER` code.

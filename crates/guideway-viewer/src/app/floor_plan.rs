@@ -1,11 +1,12 @@
 //! The floor plan: opens its file, routes clicks and drags to it, and shows its dialog.
 
+use std::mem;
 use std::path::Path;
 
 use eframe::egui::{Context, Vec2};
 use guideway_compose::FloorPlanKind;
 use guideway_layout::shown_path;
-use guideway_spline::Point;
+use guideway_spline::{Bounds, Point};
 
 use super::state::App;
 use crate::action::Action;
@@ -28,14 +29,11 @@ impl App {
         if is_file && !text.is_empty() {
             return self.set_floor_plan_file(Path::new(text));
         }
-        let LayerContext {
-            services, repaint, ..
-        } = &self.context;
-        self.floor_plan.replace(text, services, repaint);
+        self.replace_floor_plan(text);
     }
 
     /// Shows a file as the floor plan. The dialog opens for an image, whose scale the user has to
-    /// set.
+    /// set, and for a drawing without a unit once it is read.
     pub(super) fn set_floor_plan_file(&mut self, file: &Path) {
         let kind = FloorPlanKind::of_file(file);
         let is_image = matches!(kind, FloorPlanKind::Image | FloorPlanKind::PdfPage);
@@ -50,11 +48,15 @@ impl App {
             offset_m: Point::default(),
         };
         self.plan_editor.is_open = is_image;
+        self.replace_floor_plan(&placement.text());
+    }
+
+    fn replace_floor_plan(&mut self, text: &str) {
+        self.plan_editor.asks_unit = true;
         let LayerContext {
             services, repaint, ..
         } = &self.context;
-        self.floor_plan
-            .replace(&placement.text(), services, repaint);
+        self.floor_plan.replace(text, services, repaint);
     }
 
     /// Shows the floor plan at another place.
@@ -62,7 +64,22 @@ impl App {
         let LayerContext {
             services, repaint, ..
         } = &self.context;
-        self.floor_plan.place(placement, services, repaint);
+        let is_new = mem::take(&mut self.plan_editor.changes_unit);
+        let plan = &mut self.floor_plan;
+        plan.place(placement, is_new, services, repaint);
+    }
+
+    /// Takes the bounds of a floor plan that was read for the first time.
+    pub(super) fn begin_floor_plan(&mut self, bounds: Bounds<f64>) {
+        if self.files.layers().is_empty() {
+            self.canvas.camera.fit(bounds);
+        }
+        let asks_unit = mem::take(&mut self.plan_editor.asks_unit);
+        let is_assumed = self.floor_plan.assumed_unit_m().is_some_and(|assumed_m| {
+            let placement = self.floor_plan.placement();
+            placement.is_some_and(|plan| plan.is_in_unit(assumed_m, assumed_m))
+        });
+        self.plan_editor.is_open |= asks_unit && is_assumed;
     }
 
     /// Gives a pointer event to the floor plan. Returns `false` if it is none of its business.

@@ -260,9 +260,9 @@ impl App {
         self.update_tools();
         self.swept_areas.poll(ctx);
         match self.floor_plan.poll(ctx) {
-            Some(Ok(bounds)) if self.files.layers().is_empty() => self.canvas.camera.fit(bounds),
+            Some(Ok(bounds)) => self.begin_floor_plan(bounds),
             Some(Err(error)) => self.dialogs.notices.add(error),
-            _ => {}
+            None => {}
         }
         self.poll_files(ctx);
     }

@@ -245,6 +245,8 @@ impl App {
             false => format!("{file}@{}", plan.place),
         };
         self.show_floor_plan(&text);
+        // The user was asked before.
+        self.plan_editor.asks_unit = false;
         self.floor_plan.is_visible = plan.is_shown;
         self.floor_plan.is_locked = plan.is_locked;
         self.floor_plan.opacity = plan.opacity;
@@ -252,6 +254,7 @@ impl App {
 
     /// Starts to read a floor plan.
     pub(super) fn show_floor_plan(&mut self, text: &str) {
+        self.plan_editor.asks_unit = true;
         let LayerContext {
             services, repaint, ..
         } = &self.context;

@@ -144,15 +144,17 @@ impl FloorPlanLayer {
         self.before = shown.filter(|_| !self.is_empty());
     }
 
-    /// Shows the plan at another place. The old one stays until it is read anew.
+    /// Shows the plan at another place. The old one stays until it is read anew; a plan that
+    /// `is_new` there counts as read for the first time.
     pub(crate) fn place(
         &mut self,
         placement: &PlanPlacement,
+        is_new: bool,
         services: &Arc<dyn AppServices>,
         repaint: &RepaintHandle,
     ) {
         self.text = placement.text();
-        self.is_new = self.ready.is_none();
+        self.is_new = is_new || self.ready.is_none();
         self.read(services, repaint);
     }
 
@@ -165,6 +167,11 @@ impl FloorPlanLayer {
     /// File and placement; `None` without a plan, or if its text is not understood.
     pub(crate) fn placement(&self) -> Option<PlanPlacement> {
         PlanPlacement::parse(&self.text).filter(|_| !self.is_empty())
+    }
+
+    /// Meters per unit of a drawing that does not state it, as its reader assumed.
+    pub(crate) fn assumed_unit_m(&self) -> Option<f64> {
+        self.ready.as_ref()?.plan.assumed_unit_m()
     }
 
     /// Returns `true` if the plan is being read.

@@ -7,5 +7,5 @@ mod swept_areas_layer;
 
 pub(crate) use floor_plan_layer::FloorPlanLayer;
 pub(crate) use plan_editor::{PlanEditor, PlanTask};
-pub(crate) use plan_placement::{PlanPlacement, PlanSize};
+pub(crate) use plan_placement::{DRAWING_UNITS, PlanPlacement, PlanSize};
 pub(crate) use swept_areas_layer::{ActiveDocument, SweptAreasLayer};

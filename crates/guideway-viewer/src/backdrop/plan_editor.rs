@@ -23,6 +23,10 @@ pub(crate) enum PlanTask {
 #[derive(Default)]
 pub(crate) struct PlanEditor {
     pub(crate) is_open: bool,
+    /// True if the dialog opens once the plan is read and does not state its unit.
+    pub(crate) asks_unit: bool,
+    /// True if the next change is the unit, by which the plan is a thousand times as large.
+    pub(crate) changes_unit: bool,
     pub(crate) task: PlanTask,
     /// The typed distance of the two points, in meters.
     pub(crate) distance_m: f64,

@@ -16,6 +16,15 @@ pub(crate) struct PlanPlacement {
     pub(crate) offset_m: Point<f64>,
 }
 
+/// The units of drawings by their signs, in meters.
+pub(crate) const DRAWING_UNITS: [(&str, f64); 5] = [
+    ("mm", 1e-3),
+    ("cm", 1e-2),
+    ("m", 1.0),
+    ("in", 0.0254),
+    ("ft", 0.3048),
+];
+
 /// The size of a floor plan on the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PlanSize {
@@ -88,6 +97,22 @@ impl PlanPlacement {
         match keys.is_empty() {
             true => self.file.clone(),
             false => format!("{}@{}", self.file, keys.join(",")),
+        }
+    }
+
+    /// Returns `true` if the numbers of a drawing, read in the unit `assumed_m`, are in `unit_m`.
+    /// Both are in meters.
+    pub(crate) fn is_in_unit(&self, unit_m: f64, assumed_m: f64) -> bool {
+        // Texts have rounded scales.
+        let is_near = |scale: f64| (scale * assumed_m / unit_m - 1.0).abs() < 1e-4;
+        matches!(self.size, PlanSize::Scale(scale) if is_near(scale))
+    }
+
+    /// The placement of a drawing, read in the unit `assumed_m`, whose numbers are in `unit_m`.
+    pub(crate) fn in_unit(&self, unit_m: f64, assumed_m: f64) -> Self {
+        Self {
+            size: PlanSize::Scale(unit_m / assumed_m),
+            ..self.clone()
         }
     }
 
@@ -187,6 +212,25 @@ mod tests {
         for (to, distance_m) in [(from, 3.0), (to, 0.0), (to, -1.0), (to, f64::NAN)] {
             assert_eq!(image.calibrated([from, to], distance_m), None);
         }
+    }
+
+    #[test]
+    fn units_of_drawings_are_scales_of_the_assumed_one() {
+        let plan = PlanPlacement::parse("plan.dxf@rotate=3,offset=1,-7").unwrap();
+        for assumed_m in [1e-3, 0.0254] {
+            for (sign, unit_m) in DRAWING_UNITS {
+                let plan = PlanPlacement::parse(&plan.in_unit(unit_m, assumed_m).text()).unwrap();
+                let known = DRAWING_UNITS.iter();
+                let units: Vec<_> = known
+                    .filter(|(_, unit_m)| plan.is_in_unit(*unit_m, assumed_m))
+                    .map(|(sign, _)| *sign)
+                    .collect();
+                assert_eq!(units, [sign], "{}", plan.text());
+            }
+        }
+        assert_eq!(plan.in_unit(1e-3, 1e-3), plan);
+        let text = plan.in_unit(1.0, 1e-3).text();
+        assert_eq!(text, "plan.dxf@scale=1000,rotate=3,offset=1,-7");
     }
 
     #[test]

@@ -1,12 +1,12 @@
-//! Floor plans by hand: moved by a drag, scaled by two points, turned, faded, locked.
+//! Floor plans by hand: moved by a drag, scaled by two points or a unit, turned, faded, locked.
 
 use eframe::egui::{Key, Modifiers, Shape};
 use egui_kittest::kittest::Queryable;
 use guideway_compose::FloorPlan;
 use guideway_scene::{Budget, Frame, FrameSize, Rgba, Strip, View};
-use guideway_spline::Point;
+use guideway_spline::{Bounds, Point};
 
-use super::services::lanes;
+use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
 use crate::backdrop::PlanTask;
 use crate::command::Command;
@@ -201,4 +201,71 @@ fn plan_is_painted_with_its_opacity() {
         });
         assert_eq!(tints.next(), Some(alpha), "{opacity}");
     }
+}
+
+/// Opens a file as the floor plan by its name, and waits until it is read.
+fn open_plan(window: &mut TestWindow, name: &str) {
+    window.key(Modifiers::COMMAND, Key::L);
+    window.app().dialogs.prompt.open_mut().unwrap().text = name.into();
+    window.key(NONE, Key::Enter);
+    window.wait(|app| !app.floor_plan.is_empty() && !app.floor_plan.is_reading());
+    window.harness.run_steps(3);
+}
+
+#[test]
+fn unit_of_a_drawing_that_states_none_is_asked() {
+    let mut window = TestWindow::open(&TestServices::with([]), &[], Some("cpu"));
+    open_plan(&mut window, "hall.dxf");
+    let units = ["1 mm", "1 cm", "1 m", "1 in", "1 ft"].map(|unit| {
+        let unit = window.harness.get_by_label(unit);
+        unit.rect().left()
+    });
+    assert!(units.is_sorted(), "the assumed unit is the first one");
+    let width_m = |window: &mut TestWindow| {
+        let plan = window.app().floor_plan.visible();
+        let bounds: Option<Bounds<f64>> = plan.and_then(|plan| plan.bounds());
+        bounds.unwrap().size().x
+    };
+    assert!((width_m(&mut window) - 0.04).abs() < 1e-9);
+    window.harness.get_by_label("1 m").click();
+    window.harness.run_steps(2);
+    window.wait(|app| !app.floor_plan.is_reading());
+    assert_eq!(placed(&mut window), "hall.dxf@scale=1000");
+    assert!((width_m(&mut window) - 40.0).abs() < 1e-9);
+    let seen = window.app().canvas.camera.view().unwrap().world_bounds();
+    assert!(seen.size().x > 40.0, "the view shows the plan: {seen:?}");
+    // Its place is set there too, and a unit that is known is not asked.
+    assert!(window.harness.query_by_label("Rotation").is_some());
+    window.app().plan_editor.is_open = false;
+    open_plan(&mut window, "hall.dxf@scale=10");
+    assert!(!window.app().plan_editor.is_open);
+}
+
+#[test]
+fn unit_of_a_drawing_is_kept_in_the_project() {
+    use crate::services::FileAnswer;
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("hall.dxf");
+    let disk = TestServices::with([]);
+    for name in [&file, &folder.path().join("site.arrow")] {
+        disk.files.lock().unwrap().insert(name.clone(), lanes(2));
+    }
+    let site = folder.path().join("site.arrow");
+    let mut window = TestWindow::open(&disk, &[site.to_str().unwrap()], Some("cpu"));
+    window.wait(|app| app.document().is_some());
+    open_plan(&mut window, file.to_str().unwrap());
+    window.harness.get_by_label("1 cm").click();
+    window.harness.run_steps(2);
+    let project = folder.path().join("hall.guideway-project.toml");
+    let chosen = FileAnswer::Chosen(project.clone());
+    disk.answers.lock().unwrap().push(chosen);
+    let ctx = window.harness.ctx.clone();
+    window.app().perform(Command::SaveProject, &ctx);
+    window.wait(|app| has_notice(app, "Saved"));
+    drop(window);
+    let mut window = TestWindow::open(&disk, &[project.to_str().unwrap()], Some("cpu"));
+    window.wait(|app| app.files.layers().len() == 1 && app.is_settled());
+    window.wait(|app| app.floor_plan.visible().is_some());
+    assert!(placed(&mut window).ends_with("hall.dxf@scale=10"));
+    assert!(!window.app().plan_editor.is_open, "it is not asked again");
 }

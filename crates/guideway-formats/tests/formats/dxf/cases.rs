@@ -70,6 +70,8 @@ fn a_drawing_without_a_unit_may_hint_at_inches() {
         let mut found = layout.diagnostics.iter();
         let is_found = found.any(|d| d.code == Code::AssumedUnit && d.message.contains(hint));
         assert_eq!(is_found, !hint.is_empty(), "{header}");
+        let assumed_m = layout.provenance.assumed_unit_m;
+        assert_eq!(assumed_m, is_found.then_some(meters), "{header}");
     }
 }
 

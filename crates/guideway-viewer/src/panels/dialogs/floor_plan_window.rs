@@ -6,7 +6,9 @@ use eframe::egui::{
 use guideway_spline::Point;
 
 use crate::action::Action;
-use crate::backdrop::{FloorPlanLayer, PlanEditor, PlanPlacement, PlanSize, PlanTask};
+use crate::backdrop::{
+    DRAWING_UNITS, FloorPlanLayer, PlanEditor, PlanPlacement, PlanSize, PlanTask,
+};
 use crate::command::Command;
 use crate::language::{t, translated};
 
@@ -68,6 +70,12 @@ fn content(
                 present: &placement,
                 middle_m,
             };
+            if let Some(assumed_m) = plan.assumed_unit_m() {
+                if let Some(placement) = show_unit(ui, &placement, assumed_m, plan.is_locked) {
+                    editor.changes_unit = true;
+                    actions.push(Action::PlaceFloorPlan(placement));
+                }
+            }
             if let Some(placement) = place.show(ui, plan.is_locked) {
                 actions.push(Action::PlaceFloorPlan(placement));
             }
@@ -99,6 +107,31 @@ fn content(
             actions.push(Action::SetFloorPlan(String::new()));
         }
     });
+}
+
+/// The unit of a drawing that does not state it, the assumed one first. Returns the placement after
+/// a choice.
+fn show_unit(
+    ui: &mut Ui,
+    present: &PlanPlacement,
+    assumed_m: f64,
+    is_locked: bool,
+) -> Option<PlanPlacement> {
+    ui.label(t("The drawing does not state its unit. One of its units is:"));
+    let mut units = DRAWING_UNITS;
+    units.sort_by_key(|(_, unit_m)| *unit_m != assumed_m);
+    let mut new = None;
+    ui.add_enabled_ui(!is_locked, |ui| {
+        ui.horizontal(|ui| {
+            for (sign, unit_m) in units {
+                let is_present = present.is_in_unit(unit_m, assumed_m);
+                if ui.selectable_label(is_present, format!("1 {sign}")).clicked() && !is_present {
+                    new = Some(present.in_unit(unit_m, assumed_m));
+                }
+            }
+        });
+    });
+    new
 }
 
 /// The fields of size and place.
