@@ -165,12 +165,13 @@ impl SimulatedUser {
         let before = shown(&self.app);
         let is_asked = self.is_asked.swap(false, Ordering::SeqCst);
         self.presented += usize::from(is_asked || !input.events.is_empty());
-        self.gate.begin(&input);
+        self.gate.begin();
         let since = Instant::now();
         let (context, app, gate) = (&self.context, &mut self.app, &self.gate);
         let mut output = context.run_ui(input, |ui| {
             gate.show(ui.ctx());
             app.show(ui);
+            gate.end(ui.ctx(), app.changes_late);
         });
         context.tessellate(output.shapes, output.pixels_per_point);
         let frame_ms = elapsed_ms(since);

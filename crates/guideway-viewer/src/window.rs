@@ -6,6 +6,7 @@ use eframe::CreationContext;
 use eframe::egui::epaint::text::{FallbackRequest, FontData, FontInsert};
 use eframe::egui::{Context, RawInput, RequestRepaintInfo, Ui};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup};
+use eframe::wgpu::DeviceType;
 use guideway_compose::{SystemFont, system_font};
 use guideway_layout::UserError;
 
@@ -136,15 +137,23 @@ fn adapt_to_adapter(app: &mut App, creation: &CreationContext<'_>) {
     let info = state.adapter.get_info();
     app.adapter = format!("{} ({})", info.name, info.backend);
     app.share_device(state);
-    if info.device_type == eframe::wgpu::DeviceType::Cpu {
-        // Each blink of the cursor and each step of a fade would draw the whole window.
-        creation.egui_ctx.all_styles_mut(|style| {
-            style.visuals.text_cursor.blink = false;
-            style.animation_time = 0.0;
-        });
+    if rests_on(&creation.egui_ctx, info.device_type) {
         let redraw = PartialRedraw::new(state.clone());
         creation.egui_ctx.add_plugin(redraw);
     }
+}
+
+/// Lets nothing blink or fade on an adapter that is a processor: each blink of the text cursor and
+/// each step of a fade would draw a frame. Returns `true` for such an adapter.
+fn rests_on(ctx: &Context, device: DeviceType) -> bool {
+    let is_processor = device == DeviceType::Cpu;
+    if is_processor {
+        ctx.all_styles_mut(|style| {
+            style.visuals.text_cursor.blink = false;
+            style.animation_time = 0.0;
+        });
+    }
+    is_processor
 }
 
 /// The frames that the window shows beside those of input events.
@@ -185,14 +194,15 @@ struct Window {
 }
 
 impl eframe::App for Window {
-    fn raw_input_hook(&mut self, _ctx: &Context, input: &mut RawInput) {
+    fn raw_input_hook(&mut self, _ctx: &Context, _input: &mut RawInput) {
         self.repaints.timer.clear();
-        self.repaints.gate.begin(input);
+        self.repaints.gate.begin();
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.repaints.gate.show(ui.ctx());
         self.app.show(ui);
+        self.repaints.gate.end(ui.ctx(), self.app.changes_late);
     }
 
     fn on_exit(&mut self) {
@@ -202,7 +212,27 @@ impl eframe::App for Window {
 
 #[cfg(test)]
 mod tests {
+    use eframe::egui::Theme;
+
     use super::*;
+
+    #[test]
+    fn text_cursor_blinks_on_graphics_hardware_only() {
+        for (device, is_processor) in [
+            (DeviceType::Cpu, true),
+            (DeviceType::IntegratedGpu, false),
+            (DeviceType::DiscreteGpu, false),
+            (DeviceType::Other, false),
+        ] {
+            let ctx = Context::default();
+            assert_eq!(rests_on(&ctx, device), is_processor);
+            for theme in [Theme::Light, Theme::Dark] {
+                let style = ctx.style_of(theme);
+                assert_eq!(style.visuals.text_cursor.blink, !is_processor);
+                assert_eq!(style.animation_time == 0.0, is_processor);
+            }
+        }
+    }
 
     #[test]
     fn error_names_no_folder_of_the_builder() {

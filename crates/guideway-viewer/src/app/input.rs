@@ -1,11 +1,12 @@
 //! Routes keys and pointer events in the order in which they came: a click followed by Delete in
 //! one slow frame deletes what was clicked.
 
-use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
+use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers, Popup};
 
 use super::basics::{release_keyboard, tool_context};
 use super::state::App;
 use crate::backdrop::PlanTask;
+use crate::background::changes_parts_late;
 use crate::command::{Command, command_of};
 use crate::tools::{KeyAnswer, PointerEvent};
 
@@ -16,10 +17,20 @@ impl App {
         // A field has lost the focus already to an Escape of this frame.
         self.has_field_until_escape = self.had_field && events.iter().any(is_escape);
         let mut is_left = Vec::with_capacity(events.len());
+        self.changes_late = false;
         for event in &events {
             self.has_field_until_escape &= !is_escape(event);
-            is_left.push(!self.take_key(event, ctx) && !self.take_text(event, ctx));
+            let (view, is_calm) = (self.canvas.camera.view(), is_calm(ctx));
+            let is_taken = self.take_key(event, ctx) || self.take_text(event, ctx);
+            is_left.push(!is_taken);
             self.take_pointer(event, ctx);
+            // All parts are shown after the camera has moved.
+            let is_shown = match event {
+                Event::Key { .. } => is_taken && self.canvas.camera.view() != view,
+                Event::Text(_) => !is_taken,
+                _ => false,
+            };
+            self.changes_late |= changes_parts_late(event) && !(is_calm && is_shown);
         }
         let mut is_left = is_left.into_iter();
         ctx.input_mut(|input| input.events.retain(|_| is_left.next().unwrap_or(true)));
@@ -148,6 +159,11 @@ impl App {
             }
         }
     }
+}
+
+/// Returns `true` if keys reach neither a widget nor a menu.
+fn is_calm(ctx: &Context) -> bool {
+    ctx.memory(|memory| memory.focused().is_none()) && !Popup::is_any_open(ctx)
 }
 
 fn is_escape(event: &Event) -> bool {

@@ -73,6 +73,8 @@ pub(crate) struct App {
     /// Renames of vehicle types in progress.
     pub(super) renames: Vec<(EditOutcome, TypeRename)>,
     pub(super) waiting: WaitingInput,
+    /// True if parts of the window may show the input of the frame in later frames only.
+    pub(crate) changes_late: bool,
     /// True if a text field had the focus at the end of the last frame.
     pub(super) had_field: bool,
     /// True until the walk over the events of a frame reaches the Escape that left a field.
@@ -138,6 +140,7 @@ impl App {
             question_of_write: None,
             renames: Vec::new(),
             waiting: WaitingInput::default(),
+            changes_late: false,
             had_field: false,
             has_field_until_escape: false,
             clipboard: Clipboard::default(),

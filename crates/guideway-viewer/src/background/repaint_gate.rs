@@ -5,7 +5,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread::{self, ThreadId};
 
-use eframe::egui::{Context, Event, RawInput, Vec2};
+use eframe::egui::{Context, Event, Vec2};
 
 /// First frames, in which the parts of the window find their places, and which follow each other.
 const FIRST_FRAMES: u32 = 3;
@@ -35,25 +35,31 @@ impl RepaintGate {
         }
     }
 
-    /// A frame with this input begins.
-    pub(crate) fn begin(&self, input: &RawInput) {
+    /// A frame begins.
+    pub(crate) fn begin(&self) {
         self.is_beginning.store(true, Ordering::SeqCst);
-        let is_first = self.frames.fetch_add(1, Ordering::SeqCst) < FIRST_FRAMES;
-        let due = match input.events.iter().any(changes_parts_late) {
-            true => LATE_FRAMES,
-            false => u32::from(is_first),
-        };
-        self.due.fetch_max(due, Ordering::SeqCst);
     }
 
     /// The window is about to be shown: requests count from now on.
     pub(crate) fn show(&self, ctx: &Context) {
         self.is_beginning.store(false, Ordering::SeqCst);
         // egui spreads a turn of the wheel over several frames.
-        let is_scrolling = ctx.input(|input| input.smooth_scroll_delta() != Vec2::ZERO);
-        let due = self.due.load(Ordering::SeqCst);
+        if ctx.input(|input| input.smooth_scroll_delta() != Vec2::ZERO) {
+            ctx.request_repaint();
+        }
+    }
+
+    /// The window is shown. With `changes_late`, its parts may show the input of the frame in the
+    /// frames that follow only.
+    pub(crate) fn end(&self, ctx: &Context, changes_late: bool) {
+        let is_first = self.frames.fetch_add(1, Ordering::SeqCst) < FIRST_FRAMES;
+        let wanted = match changes_late {
+            true => LATE_FRAMES,
+            false => u32::from(is_first),
+        };
+        let due = self.due.load(Ordering::SeqCst).max(wanted);
         self.due.store(due.saturating_sub(1), Ordering::SeqCst);
-        if due > 0 || is_scrolling {
+        if due > 0 {
             ctx.request_repaint();
         }
     }
@@ -66,12 +72,16 @@ impl RepaintGate {
 }
 
 /// Returns `true` if an event may change a part of the window that is shown before the part which
-/// handles it, as a button does. All parts know the place of the pointer, and a wheel goes on by
-/// itself.
-fn changes_parts_late(event: &Event) -> bool {
+/// handles it, as a button does. All parts know the place of the pointer, a wheel goes on by
+/// itself, and keys act when they go down.
+pub(crate) fn changes_parts_late(event: &Event) -> bool {
     !matches!(
         event,
-        Event::PointerMoved(_) | Event::MouseMoved(_) | Event::MouseWheel { .. }
+        Event::PointerMoved(_)
+            | Event::MouseMoved(_)
+            | Event::MouseWheel { .. }
+            | Event::ModifiersChanged(_)
+            | Event::Key { pressed: false, .. }
     )
 }
 
@@ -80,7 +90,7 @@ mod tests {
     use std::sync::Arc;
     use std::sync::atomic::AtomicUsize;
 
-    use eframe::egui::{Modifiers, PointerButton, Pos2, RequestRepaintInfo};
+    use eframe::egui::{Key, Modifiers, PointerButton, Pos2, RawInput, RequestRepaintInfo};
 
     use super::*;
 
@@ -99,16 +109,18 @@ mod tests {
                 counted.fetch_add(1, Ordering::SeqCst);
             }),
         }
-        let frame = |events| {
+        let frame = |events: Vec<Event>| {
             requests.store(0, Ordering::SeqCst);
+            let changes_late = events.iter().any(changes_parts_late);
             let input = RawInput {
                 events,
                 ..RawInput::default()
             };
-            gate.begin(&input);
+            gate.begin();
             let mut output = ctx.run_ui(input, |ui| {
                 gate.show(ui.ctx());
                 ui.label("a window");
+                gate.end(ui.ctx(), changes_late);
             });
             output.textures_delta.clear();
             requests.load(Ordering::SeqCst) > 0
@@ -126,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn one_frame_per_movement_and_three_per_click() {
+    fn one_frame_per_movement_and_released_key_and_three_per_click() {
         let at = Pos2::new(5.0, 5.0);
         let moved = vec![Event::PointerMoved(at)];
         assert_eq!(frames_for(moved.clone(), false), 3, "what egui does alone");
@@ -139,12 +151,20 @@ mod tests {
         };
         assert_eq!(frames_for(vec![press], true), 3);
         assert_eq!(frames_for(vec![], true), 1);
+        let key = |pressed| Event::Key {
+            key: Key::A,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        assert_eq!([true, false].map(|on| frames_for(vec![key(on)], true)), [3, 1]);
     }
 
     #[test]
     fn requests_of_threads_count_at_any_time() {
         let gate = RepaintGate::new();
-        gate.begin(&RawInput::default());
+        gate.begin();
         assert!(!gate.admits());
         thread::scope(|scope| {
             let elsewhere = scope.spawn(|| gate.admits());

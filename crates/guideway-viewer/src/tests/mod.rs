@@ -31,6 +31,7 @@ mod panels;
 mod partial_redraw;
 mod pictures;
 mod plan_files;
+mod presented_frames;
 mod projects;
 mod properties;
 mod random_input;

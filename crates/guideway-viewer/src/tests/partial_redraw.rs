@@ -194,9 +194,15 @@ impl Plugin for Both {
 }
 
 /// A window of which each frame is drawn both ways. `None` without a graphics device.
+///
+/// # Panics
+/// Without one, if `GUIDEWAY_REQUIRE_DEVICES` is 1.
 fn window() -> Option<(TestWindow, Arc<Mutex<Frames>>)> {
     let Some(whole) = device() else {
-        eprintln!("skipped: no graphics adapter, not even a software one");
+        let reason = "no graphics adapter, not even a software one";
+        let is_required = std::env::var("GUIDEWAY_REQUIRE_DEVICES").is_ok_and(|v| v == "1");
+        assert!(!is_required, "{reason}");
+        println!("SKIPPED: {reason}");
         return None;
     };
     let in_parts = with_own_renderer(&whole);
