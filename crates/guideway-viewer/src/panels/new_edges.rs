@@ -1,6 +1,7 @@
-//! The New paths window: direction, greatest speed and vehicle types of what is drawn.
+//! The New paths window: direction, greatest speed, vehicle types and further properties of what is
+//! drawn.
 
-use crate::language::{say, t};
+use crate::language::{counted, say, t};
 use crate::units::units;
 
 /// Least and greatest speed of a field, in m/s.
@@ -21,9 +22,7 @@ pub(crate) struct NewEdgesPanel {
 impl NewEdgesPanel {
     /// Gives new paths the new name of a vehicle type.
     pub(crate) fn rename_type(&mut self, template: &mut EdgeTemplate, old: &str, new: &str) {
-        let mut names = template.vehicle_types.iter_mut().map(|(name, _)| name);
-        if let Some(name) = names.find(|name| *name == old) {
-            new.clone_into(name);
+        if template.rename_type(old, new) {
             (self.types, self.error) = (types_text(&template.vehicle_types), None);
         }
     }
@@ -69,6 +68,7 @@ impl NewEdgesPanel {
                 ui.colored_label(ui.visuals().error_fg_color, error);
             }
             ui.small(t("Without vehicle types, all may use the paths"));
+            show_further(ui, template);
             let selected = document.and_then(|document| {
                 let path = document.selection().min()?;
                 Some((document, path))
@@ -82,6 +82,23 @@ impl NewEdgesPanel {
         });
         self.is_open = is_open;
     }
+}
+
+/// The number of further properties, with their names under the pointer, and a button that removes
+/// them.
+fn show_further(ui: &mut Ui, template: &mut EdgeTemplate) {
+    let names = template.further_names();
+    if names.is_empty() {
+        return;
+    }
+    let (count, names) = (names.len() as u64, names.join(", "));
+    ui.horizontal(|ui| {
+        ui.label(counted(count, "further value")).on_hover_text(names);
+        let remove = ui.small_button("×");
+        if remove.on_hover_text(t("Draw without them")).clicked() {
+            *template = std::mem::take(template).without_further();
+        }
+    });
 }
 
 /// A field of a speed in m/s, in the unit of the settings.

@@ -27,6 +27,7 @@ mod levels;
 mod long_texts;
 mod methods;
 mod network;
+mod new_paths;
 mod panels;
 mod partial_redraw;
 mod pictures;

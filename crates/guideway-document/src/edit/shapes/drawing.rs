@@ -161,6 +161,7 @@ impl Document {
             direction: template.direction,
             level: track.level,
             vehicle_types: types.clone(),
+            style: template.style,
             ..Insertion::default()
         };
         let paths: Vec<Insertion> = ends.array_windows().zip(track.curves).map(path).collect();
@@ -176,6 +177,7 @@ impl Document {
         }
         changes.push(Edit::Insert(paths.into()).into());
         changes.extend(self.speeds(template, &rows.paths)?);
+        changes.extend(self.further_properties(template, &rows.paths));
         self.perform("draw", changes)?;
         self.selection = Arc::new(Elements::of_paths(&rows.paths));
         Ok(rows)

@@ -1,18 +1,22 @@
-//! [`EdgeTemplate`]: direction, vehicle types and speeds of new paths.
+//! [`EdgeTemplate`]: direction, vehicle types, speeds and further properties of new paths.
 
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Direction, ElementKind, Quantity, Value};
+use guideway_layout::{Attribute, Attributes, Direction, ElementKind, OwnStyle, Quantity, Value};
 use guideway_scene::{Table, TableEdit};
 
 use super::error::ShapeError;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
+use crate::edit::lengths::LENGTH;
 use crate::edit::property_value::accepted;
 
 /// Property of the greatest speed.
 const MAX_SPEED: &str = "maxSpeed";
+/// Properties of one path that another one does not take over, beside the greatest speed: they name
+/// it, measure it, or happen there.
+const OWN: [&str; 4] = ["name", "description", LENGTH, "actions"];
 
 /// The properties of new paths.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,9 +28,57 @@ pub struct EdgeTemplate {
     /// Vehicle types that may use the paths, with a greatest speed of their own in meters per
     /// second; none means all types.
     pub vehicle_types: Vec<(String, Option<f64>)>,
+    /// Width and color of their own.
+    pub style: OwnStyle,
+    /// Further properties, in one row.
+    pub properties: Attributes,
+    /// Further properties of single vehicle types, in one row each.
+    pub properties_of_types: Vec<(String, Attributes)>,
 }
 
 impl EdgeTemplate {
+    /// Names of the further properties, each once.
+    pub fn further_names(&self) -> Vec<&str> {
+        let of_types = self.properties_of_types.iter();
+        let all = of_types.map(|(_, properties)| properties);
+        let all = std::iter::once(&self.properties).chain(all);
+        let mut names: Vec<&str> = Vec::new();
+        for column in all.flat_map(Attributes::iter) {
+            if !names.contains(&column.name.as_str()) {
+                names.push(&column.name);
+            }
+        }
+        let style = [
+            ("width", self.style.width_m.is_some()),
+            ("color", self.style.color_rgba.is_some()),
+        ];
+        names.extend(style.iter().filter(|(_, is_own)| *is_own).map(|(name, _)| *name));
+        names
+    }
+
+    /// The template without further properties.
+    #[must_use]
+    pub fn without_further(self) -> Self {
+        Self {
+            direction: self.direction,
+            max_speed: self.max_speed,
+            vehicle_types: self.vehicle_types,
+            ..Self::default()
+        }
+    }
+
+    /// Gives a vehicle type another name. Returns `false` if the template does not name it.
+    pub fn rename_type(&mut self, old: &str, new: &str) -> bool {
+        let speeds = self.vehicle_types.iter_mut().map(|(name, _)| name);
+        let further = self.properties_of_types.iter_mut().map(|(name, _)| name);
+        let mut is_named = false;
+        for name in speeds.chain(further).filter(|name| *name == old) {
+            new.clone_into(name);
+            is_named = true;
+        }
+        is_named
+    }
+
     /// Names of the vehicle types.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.vehicle_types.iter().map(|(name, _)| name.as_str())
@@ -53,7 +105,57 @@ impl Document {
                 .of(row)
                 .map(|name| (name.to_owned(), own(name)))
                 .collect(),
+            style: paths.own_style(row),
+            properties: further(&paths.attributes, row),
+            properties_of_types: entries
+                .entries(row)
+                .map(|entry| {
+                    let name = entries.type_of(entry).to_owned();
+                    (name, further(&entries.attributes, entry))
+                })
+                .filter(|(_, properties)| !properties.is_empty())
+                .collect(),
         }
+    }
+
+    /// Changes that set the further properties of new paths. What another file has in a column of
+    /// another kind is left out.
+    pub(super) fn further_properties(
+        &self,
+        template: &EdgeTemplate,
+        new: &PathSet,
+    ) -> Vec<Change> {
+        let paths = &self.layout().paths;
+        let of_types = template.properties_of_types.iter();
+        // The user may have removed types since.
+        let of_types = of_types.filter(|(name, _)| template.type_names().any(|n| n == name));
+        let of_types = of_types.map(|(name, properties)| (Some(Arc::from(&**name)), properties));
+        let mut changes = Vec::new();
+        for (vehicle_type, properties) in
+            std::iter::once((None, &template.properties)).chain(of_types)
+        {
+            let known = match vehicle_type {
+                Some(_) => &paths.vehicle_types().attributes,
+                None => &paths.attributes,
+            };
+            for column in properties.iter() {
+                let (name, value) = (&*column.name, column.values.get(0));
+                let accepted = accepted(ElementKind::Path, name, known.get(name), value);
+                let Ok((Some(value), quantity)) = accepted else {
+                    continue;
+                };
+                let edit = TableEdit::SetValues {
+                    of: Table::Paths,
+                    vehicle_type: vehicle_type.clone(),
+                    column: name.into(),
+                    quantity: quantity.or(column.quantity),
+                    rows: new.iter().collect(),
+                    values: Arc::new([Some(value)].into_iter().collect()),
+                };
+                changes.push(edit.into());
+            }
+        }
+        changes
     }
 
     /// Changes that set the speeds of new paths.
@@ -90,4 +192,16 @@ impl Document {
         }
         Ok(changes)
     }
+}
+
+/// The properties of a row that another path takes over as they are.
+fn further(of: &Attributes, row: usize) -> Attributes {
+    let mut properties = Attributes::default();
+    for column in of.select(&[row]).iter() {
+        let is_own = column.name == MAX_SPEED || OWN.contains(&column.name.as_str());
+        if !is_own && column.values.get(0).is_some() {
+            properties.insert(column.clone());
+        }
+    }
+    properties
 }

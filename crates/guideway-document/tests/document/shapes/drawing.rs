@@ -1,6 +1,8 @@
 //! Drawn lines, arcs and curves: nodes at their ends, tangents at nodes, properties of a template.
 
-use guideway_document::{Document, Drawing, DrawnCurve, EdgeTemplate, ShapeError};
+use guideway_document::{
+    Document, Drawing, DrawnCurve, EdgeTemplate, PathSet, PropertyRef, ShapeError,
+};
 use guideway_layout::{Direction, Layout, Level, Value};
 use guideway_scene::Table;
 use guideway_spline::Point;
@@ -223,6 +225,57 @@ fn paths_get_the_properties_of_the_template_and_the_shown_level() {
     document.draw(&shared).unwrap();
     let speed = document.layout().paths.attributes.value(3, "maxSpeed");
     assert_eq!(speed, Some(Value::Float(0.7)));
+}
+
+#[test]
+fn template_takes_over_what_another_path_can_have() {
+    let mut document = document_of(Layout::default());
+    let line = [p(0.0, 0.0), p(5.0, 0.0)];
+    let template = EdgeTemplate {
+        vehicle_types: vec![("tugger".into(), None)],
+        ..EdgeTemplate::default()
+    };
+    let first = Drawing {
+        template,
+        ..drawing(&line, DrawnCurve::Lines)
+    };
+    document.draw(&first).unwrap();
+    let row: PathSet = [0].into_iter().collect();
+    let mut set = |vehicle_type: Option<&str>, name: &str, value: Value<'_>| {
+        let property = PropertyRef {
+            of: Table::Paths,
+            vehicle_type,
+            name,
+        };
+        document.set_property(property, &row, Some(value)).unwrap();
+    };
+    set(None, "name", Value::Text("the first"));
+    set(None, "length", Value::Float(5.0));
+    set(None, "corridor.leftWidth", Value::Float(0.5));
+    set(Some("tugger"), "rotationAllowed", Value::Bool(true));
+    let template = document.template_of(0);
+    assert_eq!(template.further_names(), ["corridor.leftWidth", "rotationAllowed"]);
+    let second = |template: &EdgeTemplate, y: f64| Drawing {
+        template: template.clone(),
+        ..drawing(&[p(0.0, y), p(5.0, y)], DrawnCurve::Lines)
+    };
+    document.draw(&second(&template, 2.0)).unwrap();
+    assert_eq!(document.template_of(1), template);
+    for name in ["name", "length"] {
+        assert_eq!(document.layout().paths.value(1, name), None, "{name}");
+    }
+    let plain = template.clone().without_further();
+    assert!(plain.further_names().is_empty());
+    document.draw(&second(&plain, 4.0)).unwrap();
+    assert_eq!(document.layout().paths.value(2, "corridor.leftWidth"), None);
+    // A type that was renamed keeps its properties, one that was removed takes them along.
+    let mut other = template.clone();
+    assert!(other.rename_type("tugger", "tractor") && !other.rename_type("tugger", "a"));
+    document.draw(&second(&other, 6.0)).unwrap();
+    assert_eq!(document.template_of(3), other);
+    other.vehicle_types.clear();
+    document.draw(&second(&other, 8.0)).unwrap();
+    assert!(document.template_of(4).properties_of_types.is_empty());
 }
 
 /// The point halfway along the first path.
