@@ -27,6 +27,8 @@ pub(crate) struct Find {
     groups: Vec<Group>,
     /// Nodes, stations and paths beyond the list.
     more: [u64; 3],
+    /// Kinds of groups, and how many are beyond the list.
+    more_groups: Vec<(&'static str, u64)>,
     search: Option<BackgroundTask<Found>>,
 }
 
@@ -45,11 +47,12 @@ impl Find {
 
     /// The numbers of matches beyond the listed ones: `and 1,020 more paths`.
     pub(crate) fn more(&self) -> Vec<String> {
-        let kinds = [Table::Nodes, Table::Stations, Table::Paths];
-        let more = kinds.into_iter().zip(self.more);
+        let kinds = [Table::Nodes, Table::Stations, Table::Paths].map(Table::element);
+        let elements = kinds.into_iter().zip(self.more);
+        let more = elements.chain(self.more_groups.iter().copied());
         let more = more.filter(|(_, count)| *count > 0);
-        more.map(|(of, count)| {
-            let what = format!("more {}", of.element());
+        more.map(|(kind, count)| {
+            let what = format!("more {kind}");
             say!("and {more}", more = counted(count, &what))
         })
         .collect()
@@ -63,8 +66,8 @@ impl Find {
 
     /// The levels and vehicle types among the results that exist in the document.
     pub(crate) fn groups<'a>(&'a self, of: &'a Document) -> impl Iterator<Item = &'a Group> {
-        let listed = self.groups.iter().take(MAX_RESULTS as usize);
-        listed.filter(|group| of.contains_group(group))
+        let groups = self.groups.iter();
+        groups.filter(|group| of.contains_group(group))
     }
 
     /// Takes a finished search. Returns what to zoom to.
@@ -73,7 +76,7 @@ impl Find {
             self.search = None;
             let (elements, groups) = results.unwrap_or_default();
             self.take(elements, document);
-            self.groups = groups;
+            self.take_groups(groups);
         }
         if self.search.is_some() || !std::mem::take(&mut self.zooms_to_first) {
             return None;
@@ -103,6 +106,24 @@ impl Find {
         }
         self.more = counts.map(|count| count.saturating_sub(MAX_RESULTS));
     }
+
+    /// Lists the first levels and vehicle types, and counts the others.
+    fn take_groups(&mut self, groups: Vec<Group>) {
+        self.groups.clear();
+        self.more_groups.clear();
+        for group in groups {
+            let kind = group.kind();
+            let of_kind = |other: &&Group| other.kind() == kind;
+            if (self.groups.iter().filter(of_kind).count() as u64) < MAX_RESULTS {
+                self.groups.push(group);
+                continue;
+            }
+            match self.more_groups.iter_mut().find(|(other, _)| *other == kind) {
+                Some((_, count)) => *count += 1,
+                None => self.more_groups.push((kind, 1)),
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -111,7 +132,10 @@ mod tests {
     use std::thread;
     use std::time::Duration;
 
+    use guideway_layout::{Level, VehicleType};
+
     use super::*;
+    use crate::language::{Language, set_language};
     use crate::tests::services::lanes;
 
     #[test]
@@ -137,5 +161,38 @@ mod tests {
         assert_eq!(find.more(), ["and 10 more paths"]);
         let shorter = Document::new(lanes(3).into(), &Default::default()).unwrap();
         assert_eq!(find.results(&shorter).count(), 3);
+    }
+
+    #[test]
+    fn levels_and_vehicle_types_beyond_the_list_are_counted() {
+        let mut layout = lanes(2);
+        layout.levels = (0..32).map(level).collect();
+        layout.vehicle_types = (0..31).map(vehicle_type).collect();
+        let groups = search_groups(&layout, "hall");
+        let document = Document::new(layout.into(), &Default::default()).unwrap();
+        let mut find = Find::default();
+        find.take_groups(groups);
+        assert_eq!(find.groups(&document).count(), 60);
+        assert_eq!(find.more(), ["and 2 more levels", "and 1 more vehicle type"]);
+        set_language(Language::German);
+        let german = find.more();
+        set_language(Language::English);
+        assert_eq!(german, ["und 2 weitere Ebenen", "und 1 weiterer Fahrzeugtyp"]);
+        find.take_groups(Vec::new());
+        assert!(find.more().is_empty() && find.groups(&document).next().is_none());
+    }
+
+    fn level(number: u32) -> Level {
+        Level {
+            id: format!("hall {number}"),
+            ..Level::default()
+        }
+    }
+
+    fn vehicle_type(number: u32) -> VehicleType {
+        VehicleType {
+            id: format!("hall truck {number}"),
+            ..VehicleType::default()
+        }
     }
 }

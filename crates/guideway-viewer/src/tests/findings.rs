@@ -153,11 +153,19 @@ fn click_flies_to_the_finding_and_a_fix_is_one_step() {
     let mut window = showing(with_gap());
     window.harness.get_by_label("Node gap (1)").click();
     window.harness.run_steps(8);
+    let link = |window: &TestWindow| {
+        let link = window.harness.get_by_label_contains("path \"lane 1\"");
+        link.rect()
+    };
+    let before = link(&window);
     window
         .harness
         .get_by_label_contains("path \"lane 1\"")
         .click();
-    window.harness.run_steps(3);
+    for _ in 0..8 {
+        window.harness.step();
+        assert_eq!(link(&window), before, "the list stays in its place");
+    }
     assert_eq!(window.selected(), [1]);
     let seen = window.app().canvas.camera.view().unwrap().world_bounds();
     assert!(seen.contains(Point::new(5.0, 2.0)) && !seen.contains(Point::new(5.0, 40.0)));
