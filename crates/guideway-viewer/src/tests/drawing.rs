@@ -1,6 +1,6 @@
 //! Drawing by clicks: lines, arcs, curves, nodes, stations, snapping.
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Shape, Vec2};
 use guideway_document::Document;
 use guideway_document::decorations::handles;
 use guideway_scene::Table;
@@ -8,6 +8,7 @@ use guideway_spline::Point;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
+use crate::panels::SideTab;
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -258,4 +259,40 @@ fn dragged_control_point_leaves_the_ends_on_their_nodes() {
         now.distance(middle) > 0.05,
         "the curve is another one: {now:?}"
     );
+}
+
+#[test]
+fn plot_of_a_drawn_arc_has_axes_with_units() {
+    let mut window = new_layout();
+    window.key(NONE, Key::O);
+    for text in ["0,0", "4,0", "2,-2"] {
+        window.type_line(text);
+    }
+    window.app().side.open(SideTab::Properties);
+    window.harness.run_steps(4);
+    let canvas = window.app().canvas.screen().rect;
+    let shapes = window.harness.output().shapes.iter();
+    let texts = shapes.filter_map(|shape| match &shape.shape {
+        Shape::Text(text) if text.pos.x > canvas.right() => {
+            Some((text.galley.text().to_owned(), text.visual_bounding_rect()))
+        }
+        _ => None,
+    });
+    let texts: Vec<_> = texts.collect();
+    let place = |text: &str| {
+        let found = texts.iter().find(|(other, _)| other == text);
+        found.unwrap_or_else(|| panic!("{text}: {texts:?}")).1
+    };
+    // A half circle of radius 2 m to the left: curvatures upward, lengths to the right.
+    let curvatures = ["0.50 /m", "0.00 /m", "-0.50 /m"].map(|text| place(text).center().y);
+    assert!(curvatures.is_sorted(), "{curvatures:?}");
+    let lengths = ["0 mm", "3.142 m", "6.283 m"].map(&place);
+    assert!(lengths.is_sorted_by_key(|rect| rect.left()), "{lengths:?}");
+    assert!(lengths.iter().all(|rect| rect.top() > curvatures[2]));
+    let lines = window.harness.output().shapes.iter();
+    let is_axis = |shape: &Shape| match shape {
+        Shape::LineSegment { points, .. } => points.iter().all(|at| at.x > canvas.right()),
+        _ => false,
+    };
+    assert!(lines.filter(|shape| is_axis(&shape.shape)).count() >= 3);
 }
