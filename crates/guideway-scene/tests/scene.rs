@@ -275,7 +275,10 @@ fn walls_are_gray_below_the_ways_only_where_asked() {
     assert_ne!(styled.color(2), styled.color(0));
     assert_eq!(styled.color(1), as_before.color(1));
     // A copy of a wall is a wall, and a color of its own makes it no way.
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(5.0, 0.0), Point::new(5.0, 1.0));
     let copy = Insertion {
+        runs,
         attributes_of: Some(2),
         ..Insertion::default()
     };

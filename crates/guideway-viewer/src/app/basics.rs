@@ -63,7 +63,12 @@ pub(super) fn tool_context_of<'a>(
     settings: &DisplaySettings,
 ) -> Option<ToolContext<'a>> {
     let view = canvas.camera.view()?;
-    Some(layer_tool_context(layer, view, settings, canvas.px_per_point()))
+    Some(layer_tool_context(
+        layer,
+        view,
+        settings,
+        canvas.px_per_point(),
+    ))
 }
 
 /// Takes the keyboard focus from a text field, so that shortcuts work again.

@@ -16,8 +16,8 @@ use crate::tools::{HoverTarget, MAX_HOVER_CANDIDATES, OtherHit, PointerEvent, To
 /// Most stations that are searched on each movement of the pointer: one after the other.
 const MAX_SEARCHED_STATIONS: usize = 20_000;
 
-/// Returns `true` if nodes and stations of a file are drawn in the view: where there are too many to
-/// draw them, they are also too many to search on each movement of the pointer.
+/// Returns `true` if nodes and stations of a file are drawn in the view: where there are too many
+/// to draw them, they are also too many to search on each movement of the pointer.
 fn draws_symbols(layer: &Layer) -> bool {
     let has_few = |document: &Document| document.layout().stations.len() <= MAX_SEARCHED_STATIONS;
     let overlay = layer.slot.overlay().last();

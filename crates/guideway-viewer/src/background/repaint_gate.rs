@@ -158,7 +158,10 @@ mod tests {
             repeat: false,
             modifiers: Modifiers::NONE,
         };
-        assert_eq!([true, false].map(|on| frames_for(vec![key(on)], true)), [3, 1]);
+        assert_eq!(
+            [true, false].map(|on| frames_for(vec![key(on)], true)),
+            [3, 1]
+        );
     }
 
     #[test]

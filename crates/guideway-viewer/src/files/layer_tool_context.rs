@@ -1,4 +1,4 @@
-//! What the tools see of a file.
+//! The input of the tools in a file.
 
 use guideway_document::decorations::MarkedKinds;
 use guideway_scene::View;

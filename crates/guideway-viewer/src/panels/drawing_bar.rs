@@ -17,6 +17,9 @@ use crate::tools::Tools;
 /// Steps of the grid to choose from, in meters.
 const STEP_CHOICES_M: [f64; 8] = [0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0];
 
+/// Height of the list of steps, in points: all of them, and the field below.
+const STEPS_HEIGHT: f32 = 320.0;
+
 /// The parts whose fields the bar edits.
 pub(crate) struct DrawingBar<'a> {
     pub(crate) files: &'a OpenFiles,
@@ -119,6 +122,7 @@ impl DrawingBar<'_> {
         ComboBox::from_id_salt("grid step")
             .selected_text(text)
             .width(120.0)
+            .height(STEPS_HEIGHT)
             // A click on the field begins to type.
             .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
             .show_ui(ui, |ui| {

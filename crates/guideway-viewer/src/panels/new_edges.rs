@@ -93,7 +93,8 @@ fn show_further(ui: &mut Ui, template: &mut EdgeTemplate) {
     }
     let (count, names) = (names.len() as u64, names.join(", "));
     ui.horizontal(|ui| {
-        ui.label(counted(count, "further value")).on_hover_text(names);
+        ui.label(counted(count, "further value"))
+            .on_hover_text(names);
         let remove = ui.small_button("×");
         if remove.on_hover_text(t("Draw without them")).clicked() {
             *template = std::mem::take(template).without_further();

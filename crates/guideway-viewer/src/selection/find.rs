@@ -118,7 +118,11 @@ impl Find {
                 self.groups.push(group);
                 continue;
             }
-            match self.more_groups.iter_mut().find(|(other, _)| *other == kind) {
+            match self
+                .more_groups
+                .iter_mut()
+                .find(|(other, _)| *other == kind)
+            {
                 Some((_, count)) => *count += 1,
                 None => self.more_groups.push((kind, 1)),
             }
@@ -173,11 +177,17 @@ mod tests {
         let mut find = Find::default();
         find.take_groups(groups);
         assert_eq!(find.groups(&document).count(), 60);
-        assert_eq!(find.more(), ["and 2 more levels", "and 1 more vehicle type"]);
+        assert_eq!(
+            find.more(),
+            ["and 2 more levels", "and 1 more vehicle type"]
+        );
         set_language(Language::German);
         let german = find.more();
         set_language(Language::English);
-        assert_eq!(german, ["und 2 weitere Ebenen", "und 1 weiterer Fahrzeugtyp"]);
+        assert_eq!(
+            german,
+            ["und 2 weitere Ebenen", "und 1 weiterer Fahrzeugtyp"]
+        );
         find.take_groups(Vec::new());
         assert!(find.more().is_empty() && find.groups(&document).next().is_none());
     }

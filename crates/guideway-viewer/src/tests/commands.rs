@@ -24,11 +24,28 @@ fn commands_that_need_a_file_are_grey_without_one() {
     let mut window = TestWindow::open(&TestServices::with([]), &[], Some("cpu"));
     // All others need a file, or a floor plan.
     let possible = [
-        &[NewLayout, Open, OpenRecent, SaveProject, FloorPlan, Quit, Settings][..],
+        &[
+            NewLayout,
+            Open,
+            OpenRecent,
+            SaveProject,
+            FloorPlan,
+            Quit,
+            Settings,
+        ][..],
         &[ZoomToAll, ZoomToScale, ZoomIn, ZoomOut, Back, Forward],
         &[PanLeft, PanRight, PanUp, PanDown],
-        &[Arrows, Symbols, Labels, Grid, SweptAreas, Density, ThesisRule, Dark, SidePanel],
-        &[ToolSelect, ToolMeasure, Cancel, Shortcuts, ExampleSite, About],
+        &[
+            Arrows, Symbols, Labels, Grid, SweptAreas, Density, ThesisRule, Dark, SidePanel,
+        ],
+        &[
+            ToolSelect,
+            ToolMeasure,
+            Cancel,
+            Shortcuts,
+            ExampleSite,
+            About,
+        ],
     ]
     .concat();
     for command in all_commands() {
@@ -67,7 +84,14 @@ fn ticks_follow_the_switches_and_the_tool() {
         assert_eq!(on(&mut window), before, "{switch:?}");
     }
     let tools = [
-        ToolSelect, ToolPoints, ToolMeasure, ToolLine, ToolArc, ToolCurve, ToolBezier, ToolNode,
+        ToolSelect,
+        ToolPoints,
+        ToolMeasure,
+        ToolLine,
+        ToolArc,
+        ToolCurve,
+        ToolBezier,
+        ToolNode,
         ToolStation,
     ];
     for tool in tools {
@@ -125,7 +149,9 @@ fn cursor_tells_what_a_press_would_do() {
     assert_eq!(cursor(&mut window, at_m.x, at_m.y), CursorIcon::Grab);
     let at = window.at(at_m.x, at_m.y);
     window.press(at, NONE);
-    window.harness.event(Event::PointerMoved(at + Vec2::new(0.0, 40.0)));
+    window
+        .harness
+        .event(Event::PointerMoved(at + Vec2::new(0.0, 40.0)));
     window.harness.run_steps(2);
     assert_eq!(window.cursor(), CursorIcon::Grabbing);
     window.release(at + Vec2::new(0.0, 40.0), NONE);

@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use guideway_document::EdgeTemplate;
-use guideway_layout::{Direction, Layout, Value};
+use guideway_layout::{Direction, Layout, Quantity, Value};
 
 use super::drawing::click;
 use super::services::lanes;
@@ -48,13 +48,10 @@ fn two_way_holds_for_the_next_path() {
 fn next_path_is_as_the_selected_one() {
     let mut layout = lanes(3);
     layout.paths.vehicle_types_mut().set(1, &["tug"]);
-    for (name, value) in [
-        ("maxSpeed", Value::Float(1.5)),
-        ("corridor.leftWidth", Value::Float(0.5)),
-        ("name", Value::Text("the second")),
-    ] {
-        layout.paths.attributes.set(1, name, value);
-    }
+    let attributes = &mut layout.paths.attributes;
+    attributes.set(1, "maxSpeed", Value::Float(1.5));
+    attributes.set(1, "name", Value::Text("the second"));
+    attributes.set_quantity(1, "corridor.leftWidth", 0.5, Quantity::Length);
     let mut window = window(layout);
     let lane = window.at(6.0, 2.0);
     window.click(lane);
@@ -65,9 +62,12 @@ fn next_path_is_as_the_selected_one() {
     assert_eq!(new.properties, expected.properties);
     assert_eq!(new.vehicle_types[0].0, "tug");
     let paths = &window.document().layout().paths;
-    assert_eq!(paths.value(3, "corridor.leftWidth"), Some(Value::Float(0.5)));
+    assert_eq!(
+        paths.value(3, "corridor.leftWidth"),
+        Some(Value::Float(0.5))
+    );
     assert_eq!(paths.value(3, "name"), None);
-    // What is taken over is told, and removed by a button.
+    // The window tells the number of values, and a button removes them.
     assert!(window.harness.query_by_label("2 further values").is_some());
     let buttons = window.harness.get_all_by_label("×");
     let leftmost = buttons.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left()));

@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use eframe::egui::{Context, Event, Key, Modifiers, Pos2, RawInput, Rect, RequestRepaintInfo, Vec2};
+use eframe::egui::{
+    Context, Event, Key, Modifiers, Pos2, RawInput, Rect, RequestRepaintInfo, Vec2,
+};
 
 use super::services::{TestServices, lanes};
 use crate::LaunchOptions;
@@ -148,7 +150,9 @@ fn keys_that_change_more_than_the_camera_present_what_follows() {
     screen.of_key(Key::Escape, None);
     screen.of_key(Key::Escape, None);
     // The arrow moves what is selected.
-    screen.app.edit(EditTask::view_change(guideway_document::Document::select_all));
+    screen.app.edit(EditTask::view_change(
+        guideway_document::Document::select_all,
+    ));
     let [down, _] = screen.of_key(Key::ArrowLeft, None);
     assert!(down >= 3, "{down}");
     screen.of_key(Key::Escape, None);

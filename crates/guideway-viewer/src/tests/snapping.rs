@@ -121,7 +121,12 @@ fn status_bar_tells_the_place_that_the_pointer_snaps_to() {
     window.key(NONE, Key::V);
     window.hover(5.05, 2.05);
     assert!(window.harness.query_by_label(&middle).is_none());
-    assert!(window.harness.query_by_label_contains("x     5.0").is_some());
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("x     5.0")
+            .is_some()
+    );
 }
 
 #[test]
@@ -144,9 +149,9 @@ fn step_of_the_grid_is_told_chosen_and_typed_in_the_bar() {
     // Other fields are in the side panel.
     let right = window.app().canvas.screen().rect.right();
     let fields = window.harness.get_all_by_role(Role::SpinButton);
-    let mut fields = fields.map(|field| field.rect().center());
-    let field = fields.find(|at| at.x < right).expect("the field is shown");
-    window.click(field);
+    let fields: Vec<Pos2> = fields.map(|field| field.rect().center()).collect();
+    let field = fields.iter().find(|at| at.x < right);
+    window.click(*field.expect("the field is shown"));
     window.answer("0.75");
     assert_eq!(window.app().settings.grid_step_m, Some(0.75));
     window.key(NONE, Key::Escape);

@@ -1,4 +1,4 @@
-//! What is under the pointer in a file that is not the active one.
+//! An element under the pointer in a file that is not the active one.
 
 use guideway_document::{Element, Hit};
 

@@ -52,7 +52,12 @@ impl EdgeTemplate {
             ("width", self.style.width_m.is_some()),
             ("color", self.style.color_rgba.is_some()),
         ];
-        names.extend(style.iter().filter(|(_, is_own)| *is_own).map(|(name, _)| *name));
+        names.extend(
+            style
+                .iter()
+                .filter(|(_, is_own)| *is_own)
+                .map(|(name, _)| *name),
+        );
         names
     }
 
@@ -120,11 +125,7 @@ impl Document {
 
     /// Changes that set the further properties of new paths. What another file has in a column of
     /// another kind is left out.
-    pub(super) fn further_properties(
-        &self,
-        template: &EdgeTemplate,
-        new: &PathSet,
-    ) -> Vec<Change> {
+    pub(super) fn further_properties(&self, template: &EdgeTemplate, new: &PathSet) -> Vec<Change> {
         let paths = &self.layout().paths;
         let of_types = template.properties_of_types.iter();
         // The user may have removed types since.

@@ -173,6 +173,7 @@ fn paths_get_the_properties_of_the_template_and_the_shown_level() {
         direction: Direction::Both,
         max_speed: Some(1.0),
         vehicle_types: vec![("tugger".into(), Some(1.5)), ("stacker".into(), None)],
+        ..EdgeTemplate::default()
     };
     let with_template = |points: [Point<f64>; 2]| Drawing {
         template: template.clone(),
@@ -254,7 +255,10 @@ fn template_takes_over_what_another_path_can_have() {
     set(None, "corridor.leftWidth", Value::Float(0.5));
     set(Some("tugger"), "rotationAllowed", Value::Bool(true));
     let template = document.template_of(0);
-    assert_eq!(template.further_names(), ["corridor.leftWidth", "rotationAllowed"]);
+    assert_eq!(
+        template.further_names(),
+        ["corridor.leftWidth", "rotationAllowed"]
+    );
     let second = |template: &EdgeTemplate, y: f64| Drawing {
         template: template.clone(),
         ..drawing(&[p(0.0, y), p(5.0, y)], DrawnCurve::Lines)

@@ -70,11 +70,11 @@ fn content(
                 present: &placement,
                 middle_m,
             };
-            if let Some(assumed_m) = plan.assumed_unit_m() {
-                if let Some(placement) = show_unit(ui, &placement, assumed_m, plan.is_locked) {
-                    editor.changes_unit = true;
-                    actions.push(Action::PlaceFloorPlan(placement));
-                }
+            if let Some(assumed_m) = plan.assumed_unit_m()
+                && let Some(placement) = show_unit(ui, &placement, assumed_m, plan.is_locked)
+            {
+                editor.changes_unit = true;
+                actions.push(Action::PlaceFloorPlan(placement));
             }
             if let Some(placement) = place.show(ui, plan.is_locked) {
                 actions.push(Action::PlaceFloorPlan(placement));
@@ -117,7 +117,9 @@ fn show_unit(
     assumed_m: f64,
     is_locked: bool,
 ) -> Option<PlanPlacement> {
-    ui.label(t("The drawing does not state its unit. One of its units is:"));
+    ui.label(t(
+        "The drawing does not state its unit. One of its units is:",
+    ));
     let mut units = DRAWING_UNITS;
     units.sort_by_key(|(_, unit_m)| *unit_m != assumed_m);
     let mut new = None;
@@ -125,7 +127,8 @@ fn show_unit(
         ui.horizontal(|ui| {
             for (sign, unit_m) in units {
                 let is_present = present.is_in_unit(unit_m, assumed_m);
-                if ui.selectable_label(is_present, format!("1 {sign}")).clicked() && !is_present {
+                let unit = ui.selectable_label(is_present, format!("1 {sign}"));
+                if unit.clicked() && !is_present {
                     new = Some(present.in_unit(unit_m, assumed_m));
                 }
             }

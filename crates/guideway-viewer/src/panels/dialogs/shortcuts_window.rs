@@ -1,8 +1,6 @@
 //! The window that lists all keyboard shortcuts and mouse gestures.
 
-use eframe::egui::{
-    Align2, Color32, Context, Grid, ScrollArea, TextStyle, Ui, Vec2, Window,
-};
+use eframe::egui::{Align2, Color32, Context, Grid, ScrollArea, TextStyle, Ui, Vec2, Window};
 
 use crate::command::{Command, MENUS, shortcuts_of};
 use crate::language::{shortcut_text, t};
@@ -82,11 +80,13 @@ fn texts(ui: &Ui, command: Command) -> (String, &'static str) {
 /// Width of a list of keys and names.
 fn list_width(ui: &Ui, list: &[(String, &str)]) -> f32 {
     let width = |text: &str, style: TextStyle| {
-        let font = style.resolve(ui.style());
-        let text = (ui.painter()).layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+        let (font, painter) = (style.resolve(ui.style()), ui.painter());
+        let text = painter.layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
         text.size().x
     };
-    let keys = list.iter().map(|(keys, _)| width(keys, TextStyle::Monospace));
+    let keys = list
+        .iter()
+        .map(|(keys, _)| width(keys, TextStyle::Monospace));
     let names = list.iter().map(|(_, name)| width(name, TextStyle::Body));
     keys.fold(0.0, f32::max) + ui.spacing().item_spacing.x + names.fold(0.0, f32::max)
 }

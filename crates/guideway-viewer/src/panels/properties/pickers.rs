@@ -27,10 +27,12 @@ fn tell_if_cut(ui: &Ui, list: Response, text: &str) {
         return;
     }
     let font = TextStyle::Button.resolve(ui.style());
-    let whole = (ui.painter()).layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    let painter = ui.painter();
+    let whole = painter.layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
     let spacing = ui.spacing();
     let beside_text = 2.0 * spacing.button_padding.x + spacing.icon_width + spacing.icon_spacing;
-    if whole.size().x > list.rect.width() - beside_text {
+    let seen = list.rect.intersect(ui.clip_rect());
+    if whole.size().x > seen.width() - beside_text {
         list.on_hover_text(text);
     }
 }
