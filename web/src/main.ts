@@ -289,7 +289,7 @@ async function showEdited(edited: Info, of?: Reference): Promise<void> {
   await find(byId<HTMLInputElement>("query").value);
   if (map.look.route) await showRoute();
   if (map.look.envelope) await showEnvelope(map.look.envelope);
-  void map.refresh();
+  await map.refresh();
 }
 
 async function check(): Promise<void> {
@@ -404,7 +404,7 @@ function connect(): void {
   panels.ontarget = (target) => void saveAs(target);
   if (!shared) {
     panels.onedit = (step) => void edit([step]);
-    tools.onedit = (steps, of) => void edit(steps, of);
+    tools.onedit = edit;
     for (const call of ["undo", "redo"] as const) {
       byId(call).hidden = false;
       byId(call).onclick = () => void takeBack(call);

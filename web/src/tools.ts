@@ -13,11 +13,14 @@ export type Tool = (typeof TOOLS)[number];
 export class Tools {
   tool: Tool | undefined;
   /** Performs edits, and selects what was edited; pages that only show have none. */
-  onedit: ((steps: EditStep[], of?: Details) => void) | undefined;
+  onedit: ((steps: EditStep[], of?: Details) => Promise<void>) | undefined;
   onstatus: (text: string) => void = () => {};
   /** The open layout. */
   info: () => Info | undefined = () => undefined;
   private measured: Point[] = [];
+  /** Clicks and keys of a tool act in their order: each waits for the answers to those before. */
+  private queue = Promise.resolve();
+  private waiting = 0;
   /** Where the selected node is dragged to. */
   private dragged: Point | undefined;
 
@@ -65,8 +68,9 @@ export class Tools {
   /** Ends one thing: a drag, a path, a tool. Returns `false` if there is none. */
   endOne(): boolean {
     if (this.map.putBack()) return true;
-    if (this.drawing.drop()) this.map.paint();
-    else if (this.tool) this.takeUp(undefined);
+    if (this.waiting || this.drawing.line.length) {
+      this.perform(async () => (this.drawing.drop(), []));
+    } else if (this.tool) this.takeUp(undefined);
     else return false;
     return true;
   }
@@ -102,12 +106,17 @@ export class Tools {
   /** Performs the edits that a tool asks for, unless another layout is open by then. */
   private perform(steps: (info: Info) => Promise<EditStep[]>): void {
     const { tool } = this;
-    const info = this.info();
-    if (!info) return;
-    steps(info).then((steps) => {
-      this.map.paint();
-      if (steps.length && this.info() === info && this.tool === tool) this.onedit?.(steps);
-    }, this.map.onfail);
+    this.waiting++;
+    this.queue = this.queue
+      .then(async () => {
+        const info = this.info();
+        if (!info || this.tool !== tool) return;
+        const asked = await steps(info);
+        this.map.paint();
+        if (asked.length && this.info() === info) await this.onedit?.(asked);
+      })
+      .catch(this.map.onfail)
+      .finally(() => this.waiting--);
   }
 
   private lift(at: Point): boolean {
@@ -123,7 +132,7 @@ export class Tools {
     this.map.paint();
     if (!at || !isDropped || !selected) return;
     const to = rounded(this.map.world(at));
-    this.onedit?.([{ do: "move-node", node: selected.id, to }], selected);
+    void this.onedit?.([{ do: "move-node", node: selected.id, to }], selected);
   }
 
   /** The level that is shown alone, or the first one. */
