@@ -7,7 +7,7 @@ use guideway_layout::{NewPath, OwnStyle, for_each_row};
 use super::error::EditError;
 use super::operation::{Edit, Insertion};
 use crate::color::Rgba;
-use crate::scene::{Colors, PathState, Scene, own_color};
+use crate::scene::{Colors, PathState, Scene};
 
 impl Scene {
     /// Applies an edit. Copies the layout first if other owners share it.
@@ -118,19 +118,20 @@ impl Scene {
     /// Gives restyled paths their own colors.
     fn follow_own_colors(&mut self, styles: &[(u32, OwnStyle)]) {
         let rows = self.row_count();
-        let layout = &self.layout;
-        let common = (self.coloring.base, self.coloring.structure_below);
-        let own = |path: u32| own_color(layout, common, path);
-        if let Colors::One(one) = self.coloring.colors {
-            if styles.iter().all(|&(path, _)| own(path) == one) {
+        let before = std::mem::replace(&mut self.coloring.colors, Colors::One(Rgba::BLACK));
+        let (layout, coloring) = (&self.layout, &self.coloring);
+        let own = |path: u32| coloring.own_color(layout, path);
+        let mut colors = match before {
+            Colors::One(one) if styles.iter().all(|&(path, _)| own(path) == one) => {
+                self.coloring.colors = before;
                 return;
             }
-            self.coloring.colors = Colors::Each(vec![one; rows]);
-        }
-        if let Colors::Each(colors) = &mut self.coloring.colors {
-            let row = |style: &(u32, OwnStyle)| style.0;
-            for_each_row(colors, styles, &row, &|to, &(path, _)| *to = own(path));
-        }
+            Colors::One(one) => vec![one; rows],
+            Colors::Each(colors) => colors,
+        };
+        let row = |style: &(u32, OwnStyle)| style.0;
+        for_each_row(&mut colors, styles, &row, &|to, &(path, _)| *to = own(path));
+        self.coloring.colors = Colors::Each(colors);
     }
 
     fn set_color(&mut self, path: u32, color: Rgba) {

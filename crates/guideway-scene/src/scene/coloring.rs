@@ -92,6 +92,21 @@ impl Coloring {
             Colors::Each(colors) => colors[path as usize],
         }
     }
+
+    /// Returns `true` if a path of the layout is a wall or a door that is drawn below all others.
+    pub(super) fn is_below_ways(&self, layout: &Layout, path: u32) -> bool {
+        self.structure_below && !layout.paths.is_driven(path as usize)
+    }
+
+    /// Color of a path when no column decides it: walls and doors are gray where they are drawn
+    /// below.
+    pub(crate) fn own_color(&self, layout: &Layout, path: u32) -> Rgba {
+        if self.is_below_ways(layout, path) {
+            return STRUCTURE;
+        }
+        let own = layout.paths.own_style(path as usize).color_rgba;
+        own.map_or(self.base, Rgba::from_u32)
+    }
 }
 
 impl Colors {
@@ -113,15 +128,6 @@ impl Colors {
         *self = Self::Each(each);
         true
     }
-}
-
-/// Color of a path when no column decides it: walls and doors are gray where they are drawn below.
-pub(crate) fn own_color(layout: &Layout, (base, structure_below): (Rgba, bool), path: u32) -> Rgba {
-    if structure_below && !layout.paths.is_driven(path as usize) {
-        return STRUCTURE;
-    }
-    let own = layout.paths.own_style(path as usize).color_rgba;
-    own.map_or(base, Rgba::from_u32)
 }
 
 fn own_colors(layout: &Layout, base: Rgba) -> Colors {

@@ -24,7 +24,7 @@ mod states;
 mod styles;
 
 pub use coloring::Coloring;
-pub(crate) use coloring::{Colors, own_color};
+pub(crate) use coloring::Colors;
 pub use error::{NoOpaqueColor, SceneError};
 pub use model::{LayoutCopy, Scene};
 pub use options::SceneOptions;

@@ -7,7 +7,7 @@ use guideway_spline::Bounds;
 
 use super::bounds::curve_bounds;
 use super::census::StyleCensus;
-use super::coloring::{Coloring, own_color};
+use super::coloring::Coloring;
 use super::draw_order::{draw_order, states};
 use super::error::SceneError;
 use super::level::visible_level;
@@ -195,17 +195,12 @@ impl Scene {
 
     /// Color of a path when no column decides it.
     pub(crate) fn own_color(&self, path: u32) -> Rgba {
-        let Coloring {
-            base,
-            structure_below,
-            ..
-        } = self.coloring;
-        own_color(&self.layout, (base, structure_below), path)
+        self.coloring.own_color(&self.layout, path)
     }
 
     /// Returns `true` if a path is a wall or a door that is drawn below all ways of vehicles.
     pub fn is_below_ways(&self, path: u32) -> bool {
-        self.coloring.structure_below && !self.layout.paths.is_driven(path as usize)
+        self.coloring.is_below_ways(&self.layout, path)
     }
 
     /// The path's own width in meters, if it has one.
