@@ -1,6 +1,6 @@
 //! Compositing of colors and frames with straight alpha: `over` of Porter and Duff (1984).
 
-use guideway_scene::Frame;
+use guideway_scene::{Frame, Rgba};
 
 /// Composites every pixel of `frame` over the pixel of `below` at the same position, in place.
 pub(crate) fn composite_over(below: &Frame, frame: &mut Frame) {
@@ -15,7 +15,8 @@ pub(crate) fn fade(frame: &mut Frame, opacity: f64) {
         return;
     }
     for pixel in frame.pixels_mut() {
-        pixel[3] = (f64::from(pixel[3]) * opacity.max(0.0)).round() as u8;
+        let color = Rgba::from_u32(u32::from_be_bytes(*pixel));
+        *pixel = color.faded(opacity).to_u32().to_be_bytes();
     }
 }
 

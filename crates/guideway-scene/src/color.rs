@@ -51,6 +51,14 @@ impl Rgba {
         }
     }
 
+    /// The color, more translucent: its alpha times an opacity of 0 to 1.
+    pub fn faded(self, opacity: f64) -> Self {
+        Self {
+            a: (f64::from(self.a) * opacity.clamp(0.0, 1.0)).round() as u8,
+            ..self
+        }
+    }
+
     /// Interpolates linearly per channel: `self` at `t` = 0, `other` at `t` = 1.
     pub fn lerp(self, other: Self, t: f64) -> Self {
         let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * t).round() as u8;
@@ -106,6 +114,13 @@ impl FromStr for Rgba {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn fading_scales_alpha_alone() {
+        let color = Rgba::from_u32(0x0102_0380);
+        assert_eq!(color.faded(0.5), Rgba::from_u32(0x0102_0340));
+        assert_eq!((color.faded(2.0), color.faded(-1.0).a), (color, 0));
+    }
 
     #[test]
     fn parses_what_display_writes_and_rejects_the_rest() {

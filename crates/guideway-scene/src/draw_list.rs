@@ -115,9 +115,7 @@ impl DrawList {
 
     /// The same drawing with colors that are more translucent, from opacity 0 to 1.
     pub fn faded(mut self, opacity: f64) -> Self {
-        let fade = |color: &mut Rgba| {
-            color.a = (f64::from(color.a) * opacity.clamp(0.0, 1.0)).round() as u8;
-        };
+        let fade = |color: &mut Rgba| *color = color.faded(opacity);
         self.fills.iter_mut().for_each(|fill| fade(&mut fill.color));
         for text in &mut self.texts {
             fade(&mut text.color);
