@@ -1,10 +1,12 @@
-//! Colors paths by a column: classes for few distinct values, a ramp for many numbers.
+//! Colors paths by a column: classes for few distinct values or between breaks, a ramp for many
+//! numbers.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use guideway_layout::{Direction, Layout, Quantity, Values};
 
+use crate::breaks::ClassBreaks;
 use crate::color::Rgba;
 use crate::ramp::{NumberColors, Ramp, ticks};
 
@@ -22,6 +24,24 @@ impl ColorBy {
         let rows = 0..layout.paths.len() as u32;
         let range = range_of(|| rows.clone().filter_map(&number), None);
         range[0].is_finite().then_some(range)
+    }
+
+    /// Class breaks at the round numbers of the continuous scale of the column, whose ends are as
+    /// in [`NumberColors::range`]. A break that has no number below it is left out if there are
+    /// others. `None` if the column has no numbers. Cost: O(paths).
+    pub fn round_breaks(&self, layout: &Layout, range: Option<[f64; 2]>) -> Option<ClassBreaks> {
+        let [least, _] = self.range(layout)?;
+        let number = numbers(layout, &self.column)?;
+        let rows = 0..layout.paths.len() as u32;
+        let [low, high] = range_of(|| rows.clone().filter_map(&number), range);
+        // The texts have no rounding errors.
+        let ticks = ticks(low, high).into_iter();
+        let round: Vec<f64> = ticks.filter_map(|(_, text)| text.parse().ok()).collect();
+        let needless = match round[..] {
+            [first, _, ..] if first <= least => 1,
+            _ => 0,
+        };
+        ClassBreaks::new(&round[needless..]).ok()
     }
 }
 
@@ -91,8 +111,8 @@ pub(crate) struct UnknownColumn {
 }
 
 /// Color per row, and the legend. `drawn` lists the shown rows, which decide the classes or the
-/// scale. A column with more distinct numbers than palette colors gets a scale, and so does one
-/// whose range is given.
+/// scale. Numbers get the classes between breaks that are given. Else a column with more distinct
+/// numbers than palette colors gets a scale, and so does one whose range is given.
 pub(crate) fn resolve(
     layout: &Layout,
     by: &ColorBy,
@@ -100,6 +120,9 @@ pub(crate) fn resolve(
     drawn: &[u32],
 ) -> Result<(Vec<Rgba>, Legend), UnknownColumn> {
     if let Some(numbers) = numbers(layout, &by.column) {
+        if let Some(breaks) = &style.breaks {
+            return Ok(graduated(layout, (by, style), breaks, drawn, numbers));
+        }
         if style.range.is_some() {
             return Ok(scale(layout, (by, style), drawn, numbers));
         }
@@ -217,6 +240,44 @@ fn range_of<V: Iterator<Item = f64>>(values: impl Fn() -> V, given: Option<[f64;
     let or = |end: f64, value: &dyn Fn() -> f64| if end.is_finite() { end } else { value() };
     let low = or(low, &|| values().fold(high, f64::min));
     [low, or(high, &|| values().fold(low, f64::max))]
+}
+
+/// Gives each class between breaks a color, whether it has paths or not.
+fn graduated(
+    layout: &Layout,
+    (by, style): (&ColorBy, &NumberColors),
+    breaks: &ClassBreaks,
+    drawn: &[u32],
+    number: Numbers<'_>,
+) -> (Vec<Rgba>, Legend) {
+    let labels = breaks.labels();
+    let class_colors = class_colors(labels.len(), Some(style));
+    let mut counts = vec![0; labels.len()];
+    let mut missing = 0;
+    for &path in drawn {
+        match number(path) {
+            Some(value) => counts[breaks.class(value)] += 1,
+            None => missing += 1,
+        }
+    }
+    let color = |path| number(path).map_or(MISSING, |value| class_colors[breaks.class(value)]);
+    let colors = (0..layout.paths.len() as u32).map(color).collect();
+    let classes = labels.into_iter().zip(&class_colors).zip(counts);
+    let classes = classes.map(|((label, &color), paths)| LegendEntry {
+        label,
+        color,
+        paths: Some(paths),
+    });
+    let entries = classes.chain((missing > 0).then(|| no_value(missing)));
+    (
+        colors,
+        Legend {
+            column: by.column.clone(),
+            unit: unit(layout, by),
+            entries: entries.collect(),
+            scale: None,
+        },
+    )
 }
 
 fn no_value(paths: u64) -> LegendEntry {

@@ -16,13 +16,14 @@
 //!
 //! | files | content |
 //! |---|---|
-//! | `scene/`, `color`, `color_by`, `ramp`, `style`, `density` | appearance of the paths |
+//! | `scene/`, `color`, `color_by`, `ramp`, `breaks`, `style`, `density` | appearance of the paths |
 //! | `edit/`, `table` | changes of a scene and their inverses |
 //! | `cluster/` | the spatial index of paths, nodes and strokes |
 //! | `view`, `frame`, `strip`, `device_picture` | the picture |
 //! | `method`, `report`, `error` | the contract of render methods |
 //! | `draw_list` | decorations over or below the paths |
 
+mod breaks;
 pub mod cluster;
 mod color;
 mod color_by;
@@ -41,6 +42,7 @@ mod style;
 mod table;
 mod view;
 
+pub use breaks::{ClassBreaks, ClassBreaksError};
 pub use color::{ParseColorError, Rgba};
 pub use color_by::{ColorBy, Legend, LegendEntry, LegendScale};
 pub use device_picture::DevicePicture;

@@ -1,6 +1,7 @@
 //! Ramps of colors for numbers: named palettes, cut to what stands out from the background, and
 //! round ticks beside them.
 
+use crate::breaks::ClassBreaks;
 use crate::color::Rgba;
 
 /// Least contrast of a line with what is around it (WCAG 2.2, criterion 1.4.11).
@@ -83,7 +84,7 @@ impl Palette {
     }
 }
 
-/// Palette and range that map numbers to colors.
+/// Palette, and range or class breaks, that map numbers to colors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NumberColors {
     /// The colors.
@@ -91,6 +92,9 @@ pub struct NumberColors {
     /// The numbers at both ends of the palette; `None`, or an infinite end, for the least and the
     /// largest one. Numbers beyond have the color of the end.
     pub range: Option<[f64; 2]>,
+    /// The ends of classes, which have colors evenly along the palette; a range has no effect
+    /// beside them. `None` for a continuous scale, or for classes of few distinct numbers.
+    pub breaks: Option<ClassBreaks>,
     /// The paper below the paths, from which the colors stand out.
     pub background: Rgba,
 }
@@ -100,6 +104,7 @@ impl Default for NumberColors {
         Self {
             palette: Palette::default(),
             range: None,
+            breaks: None,
             background: Rgba::WHITE,
         }
     }
@@ -258,7 +263,7 @@ mod tests {
                 let ramp = Ramp::new(&NumberColors {
                     palette,
                     background,
-                    range: None,
+                    ..NumberColors::default()
                 });
                 for step in 0..=100 {
                     let color = ramp.at(f64::from(step) / 100.0);
@@ -278,7 +283,7 @@ mod tests {
                 let ramp = Ramp::new(&NumberColors {
                     palette,
                     background,
-                    range: None,
+                    ..NumberColors::default()
                 });
                 for step in 0..=100 {
                     let color = ramp.at(f64::from(step) / 100.0);

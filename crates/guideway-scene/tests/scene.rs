@@ -5,8 +5,8 @@ use std::sync::Arc;
 use guideway_layout::{Layout, Level, NewPath, OwnStyle, Quantity, Value};
 use guideway_scene::density::{ToneMap, shade};
 use guideway_scene::{
-    ColorBy, Edit, Frame, FrameSize, Insertion, Palette, PathState, Rgba, Scene, SceneError,
-    SceneOptions,
+    ClassBreaks, ColorBy, Edit, Frame, FrameSize, Insertion, Palette, PathState, Rgba, Scene,
+    SceneError, SceneOptions,
 };
 use guideway_spline::{Point, Runs};
 
@@ -250,6 +250,70 @@ fn an_infinite_end_of_a_range_is_that_of_the_column() {
     let (colors, _) = scale(99.0, most);
     assert!(colors.iter().all(|color| *color == colors[0]));
     assert_eq!(colors[0], scale(1.0, 12.0).0[0]);
+}
+
+#[test]
+fn breaks_make_classes_along_the_ramp_whatever_the_numbers() {
+    let mut speeds = layout(5);
+    for (row, speed) in [0.2, 0.5, 0.7, 2.0].into_iter().enumerate() {
+        let attributes = &mut speeds.paths.attributes;
+        attributes.set(row, "speed", Value::Float(speed));
+    }
+    let mut options = by("speed");
+    options.numbers.range = Some([0.0, 1.0]);
+    let ramp = scene(speeds.clone(), &options).legend().unwrap().clone();
+    let ramp = ramp.scale.unwrap().colors;
+    // The range has no effect beside breaks.
+    options.numbers.breaks = ClassBreaks::new(&[0.5, 1.0, 1.5, 2.0]).ok();
+    let graduated = scene(speeds.clone(), &options);
+    let legend = graduated.legend().unwrap();
+    let entries = legend.entries.iter();
+    let entries: Vec<_> = entries.map(|e| (e.label.as_str(), e.paths)).collect();
+    let expected = [
+        ("below 0.5", Some(1)),
+        ("0.5 to 1", Some(2)),
+        ("1 to 1.5", Some(0)),
+        ("1.5 to 2", Some(0)),
+        ("2 and more", Some(1)),
+        ("no value", Some(1)),
+    ];
+    assert_eq!(entries, expected);
+    assert!(legend.scale.is_none(), "no colors between those of classes");
+    for (row, class) in [(0, 0), (1, 1), (2, 1), (3, 4), (4, 5)] {
+        assert_eq!(graduated.color(row), legend.entries[class].color, "{row}");
+    }
+    for (class, entry) in legend.entries[..5].iter().enumerate() {
+        assert_eq!(entry.color, ramp[class * (ramp.len() - 1) / 4], "{class}");
+    }
+    // Hidden paths are not counted, and texts have no breaks.
+    options.level = Some("upper".into());
+    let upper = scene(speeds.clone(), &options).legend().unwrap().clone();
+    assert_eq!(upper.entries[0].paths, Some(0));
+    options.color_by = by("level").color_by;
+    let levels = scene(speeds, &options).legend().unwrap().clone();
+    assert_eq!(levels.entries[0].label, "upper");
+}
+
+#[test]
+fn round_breaks_are_the_ticks_of_the_scale_above_the_least_number() {
+    let mut speeds = layout(12);
+    for row in 0..12 {
+        let speed = Value::Float(row as f64 / 10.0);
+        speeds.paths.attributes.set(row, "speed", speed);
+    }
+    let breaks = |column: &str, range| {
+        let by = by(column).color_by.unwrap();
+        let breaks = by.round_breaks(&speeds, range)?;
+        Some(breaks.numbers().to_vec())
+    };
+    assert_eq!(breaks("speed", None).unwrap(), [0.2, 0.4, 0.6, 0.8, 1.0]);
+    let ends = Some([f64::NEG_INFINITY, 0.35]);
+    assert_eq!(
+        breaks("speed", ends).unwrap(),
+        [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35]
+    );
+    assert_eq!(breaks("speed", Some([1.0, 3.0])).unwrap()[..2], [1.0, 1.5]);
+    assert_eq!(breaks("level", None), None);
 }
 
 #[test]
