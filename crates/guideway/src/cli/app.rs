@@ -40,7 +40,7 @@ enum Command {
     /// Draw layout files as a PNG, SVG or PDF picture
     Render(Box<render::Args>),
     /// Write layout files into one HTML file that any browser opens
-    Share(share::Args),
+    Share(Box<share::Args>),
     /// Make tiles of layout files for maps in browsers
     Tiles(Box<tiles::Args>),
     /// Summarize the content of layout files

@@ -1,6 +1,6 @@
 //! Options for the colors of numbers, beside `--color-by`.
 
-use guideway::scene::Palette;
+use guideway::scene::{ClassBreaks, Palette};
 
 use super::values;
 
@@ -18,4 +18,15 @@ pub(crate) struct NumberArgs {
         allow_hyphen_values = true
     )]
     pub(crate) range: Option<[f64; 2]>,
+    /// Classes between these ascending numbers, such as 0.3,0.6,1, instead of a range [default: a
+    /// continuous scale, or a class per number if there are few]
+    #[arg(
+        long,
+        value_name = "A,B",
+        requires = "color_by",
+        conflicts_with = "range",
+        value_parser = values::breaks,
+        allow_hyphen_values = true
+    )]
+    pub(crate) breaks: Option<ClassBreaks>,
 }

@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use guideway::AUTO;
 use guideway::layout::Limits;
-use guideway::scene::{Frame, FrameSize, Palette, ParseColorError, Rgba};
+use guideway::scene::{ClassBreaks, Frame, FrameSize, Palette, ParseColorError, Rgba};
 use guideway::spline::Point;
 
 use super::process::MAX_THREADS;
@@ -64,6 +64,16 @@ pub(crate) fn range(text: &str) -> Result<[f64; 2], String> {
         (ends.iter().all(|end: &f64| end.is_finite()) && ends[0] < ends[1]).then_some(ends)
     });
     ends.ok_or_else(|| "write the lower and the higher end, such as 0..2".to_owned())
+}
+
+/// Class breaks such as `0.3,0.6,1`.
+pub(crate) fn breaks(text: &str) -> Result<ClassBreaks, String> {
+    let numbers = text.split(',').map(|part| {
+        let error = |_| format!("`{part}` is no number; write numbers such as 0.3,0.6,1");
+        part.trim().parse::<f64>().map_err(error)
+    });
+    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+    ClassBreaks::new(&numbers).map_err(|error| format!("{error}, such as 0.3,0.6,1"))
 }
 
 /// A point such as `12.5,-3`.
@@ -255,6 +265,7 @@ mod tests {
         assert_eq!(point("-1.5, 2e3").unwrap(), Point::new(-1.5, 2000.0));
         assert_eq!(positive("0.5"), Ok(0.5));
         assert_eq!(not_negative("0"), Ok(0.0));
+        assert_eq!(breaks("-0.5, 1e1").unwrap().numbers(), [-0.5, 10.0]);
         for (text, number) in [
             ("1_000", 1000),
             ("1,000", 1000),
@@ -280,6 +291,9 @@ mod tests {
         assert!(size("65535x65535").is_ok());
         let error = frame_size("65535x65535").unwrap_err();
         assert!(error.contains("1920x1080"), "{error}");
+        for bad in ["", "0.3,", "0.3;0.6", "a", "0.6,0.3", "1,1", "0,inf", "NaN"] {
+            assert!(breaks(bad).unwrap_err().contains("0.3,0.6,1"), "{bad}");
+        }
         for bad in ["1", "1;2", "a,b", "NaN,0", "1,2,3", "inf,0", "1e10,0"] {
             assert!(point(bad).unwrap_err().contains("12.5,-3"), "{bad}");
         }

@@ -106,6 +106,7 @@ fn each_style_option_changes_the_picture() {
         &["--color-by", "vehicle_type"],
         &["--color-by", "maxSpeed", "--palette", "viridis"],
         &["--color-by", "maxSpeed", "--range", "0..2"],
+        &["--color-by", "maxSpeed", "--breaks", "0.9,1.3"],
         &["--background", "none"],
         &["--shade", "density"],
         &["--shade", "density", "--tone", "linear"],
@@ -138,6 +139,12 @@ fn rejects_invalid_values_with_an_example() {
             "viridis",
         ),
         (&["--range", "0..2"], "--color-by"),
+        (&["--breaks", "0.5,1"], "--color-by"),
+        (&["--color-by", "maxSpeed", "--breaks", "1,0.5"], "0.3,0.6"),
+        (
+            &["--color-by", "maxSpeed", "--breaks", "1", "--range", "0..2"],
+            "cannot be used with",
+        ),
         (&["--min-px", "5", "--max-px", "2"], "--min-px 1"),
         (&["--line-rule", "thesis", "--width", "1"], "--width 0.2"),
         (&["--level", "attic"], "hall (Hall), mezzanine (Mezzanine)"),
@@ -161,6 +168,30 @@ fn rejects_invalid_values_with_an_example() {
         );
     }
     assert!(names_in(folder.path()).is_empty());
+}
+
+#[test]
+fn breaks_are_the_classes_of_the_legend() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("site.png");
+    let legend = |column: &str, breaks: &str| {
+        let args = ["--json", "--size", "320x200", "--color-by", column];
+        let args = [&args[..], &["--breaks", breaks]].concat();
+        json(&render(&picture, &args), "render")["legend"].clone()
+    };
+    let speeds = legend("maxSpeed", "-1,0.9,1.3");
+    assert_eq!(speeds["is_continuous"], false);
+    let entries = speeds["entries"].as_array().unwrap();
+    let labels: Vec<_> = entries.iter().map(|entry| &entry["label"]).collect();
+    assert_eq!(
+        labels[..4],
+        ["below -1", "-1 to 0.9", "0.9 to 1.3", "1.3 and more"]
+    );
+    assert_eq!(entries[0]["paths"], 0, "classes without paths are listed");
+    let paths = entries.iter().map(|entry| entry["paths"].as_u64().unwrap());
+    assert_eq!(paths.sum::<u64>(), 326);
+    // A column without numbers has none of them, as it has no range.
+    assert_eq!(legend("direction", "1")["entries"][0]["label"], "one-way");
 }
 
 #[test]

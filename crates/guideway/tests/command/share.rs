@@ -42,17 +42,23 @@ fn page_opens_as_its_options_say() {
     let site = site();
     let site = site.to_str().unwrap();
     let view = ["--center", "12.5,-3", "--scale", "40"];
-    let colors = ["--color-by", "maxSpeed", "--title", "Hall <3>"];
-    let args = [&["share", site, "-o", "a.html"], &view[..], &colors].concat();
+    let colors = ["--color-by", "maxSpeed", "--breaks", "0.5,1"];
+    let title = ["--title", "Hall <3>"];
+    let args = [&["share", site, "-o", "a.html"], &view[..], &colors, &title].concat();
     let (page, shared) = share(&args);
     assert_eq!(shared["title"], "Hall <3>");
     assert_eq!(shared["name"], "site.arrow");
     assert_eq!(shared["format"], "LIF");
     assert_eq!(shared["look"]["pxPerM"], 40.0);
     assert_eq!(shared["look"]["colorBy"], "maxSpeed");
+    let breaks = serde_json::json!([0.5, 1.0]);
+    assert_eq!(shared["look"]["breaks"], breaks);
+    assert_eq!(shared["look"].get("range"), None);
     assert!(page.contains("connect-src 'none'"));
 
-    let (of_render, shared) = share(&[&["render", site, "-o", "a.html"], &view[..]].concat());
+    let args = [&["render", site, "-o", "a.html"], &view[..], &colors].concat();
+    let (of_render, shared) = share(&args);
+    assert_eq!(shared["look"]["breaks"], breaks);
     assert_eq!(shared["look"]["center"], serde_json::json!([12.5, -3.0]));
     assert_eq!(content(&of_render, "layout"), content(&page, "layout"));
     // Several files are one layout.
@@ -152,6 +158,10 @@ fn bad_pages_are_refused_and_leave_no_file() {
         ),
         (
             &["share", site, "-o", "a.html", "--palette", "gray"],
+            "--color-by",
+        ),
+        (
+            &["share", site, "-o", "a.html", "--breaks", "0.5"],
             "--color-by",
         ),
         (

@@ -32,6 +32,7 @@ impl Args {
         let viewport = options.viewport;
         let background = Some(options.style.background).filter(|color| *color != Rgba::WHITE);
         let decorations = self.decorations.decorations(&self.inputs);
+        let numbers = &self.style.numbers;
         let look = SharedLook {
             width: Some(viewport.size.width()),
             height: Some(viewport.size.height()),
@@ -39,8 +40,9 @@ impl Args {
             px_per_m: viewport.px_per_m,
             level: options.scene.level,
             color_by: options.scene.color_by.map(|by| by.column),
-            palette: self.style.numbers.palette.map(Palette::name),
-            range: self.style.numbers.range,
+            palette: numbers.palette.map(Palette::name),
+            range: numbers.range,
+            breaks: numbers.breaks.map(|breaks| breaks.numbers().to_vec()),
             envelope: self.view.envelope,
             shade: (options.style.shading != Shading::Color).then_some("density"),
             background: background.map(|color| format!("{:06x}", color.to_u32() >> 8)),

@@ -116,6 +116,7 @@ impl StyleArgs {
         NumberColors {
             palette: self.numbers.palette.unwrap_or_default(),
             range: self.numbers.range,
+            breaks: self.numbers.breaks,
             background,
         }
     }

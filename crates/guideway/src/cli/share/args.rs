@@ -71,6 +71,7 @@ impl Args {
             color_by: self.color_by.clone(),
             palette: self.numbers.palette.map(Palette::name),
             range: self.numbers.range,
+            breaks: self.numbers.breaks.map(|breaks| breaks.numbers().to_vec()),
             envelope: self.envelope,
             legend: self.color_by.is_some().then_some(true),
             background: self.dark.then(|| "16181d".to_owned()),

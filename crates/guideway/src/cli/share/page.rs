@@ -46,6 +46,8 @@ pub(crate) struct SharedLook {
     pub(crate) palette: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) range: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) breaks: Option<Vec<f64>>,
     /// The vehicle whose swept areas are shown, as in `--envelope`.
     #[serde(
         skip_serializing_if = "Option::is_none",
