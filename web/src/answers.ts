@@ -126,6 +126,7 @@ export interface Look {
   colorBy?: string;
   palette?: string;
   range?: [number, number];
+  breaks?: number[];
   color?: string;
   background?: string;
   shade?: "auto" | "color" | "density";

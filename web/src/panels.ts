@@ -63,8 +63,9 @@ export class Panels {
   onedit: ((step: EditStep) => void) | undefined;
   ontarget: (target: Info["targets"][number]) => void = () => {};
   hasFindings = false;
-  /** The numbers at the ends of the palette, of whoever shared the layout. */
+  /** The numbers at the ends of the palette, or between classes, of whoever shared the layout. */
   private range: Look["range"];
+  private breaks: Look["breaks"];
 
   constructor() {
     options(
@@ -81,6 +82,7 @@ export class Panels {
           // Colors by a column mean little without their legend.
           this.check("legend", this.value("color-by") !== "");
           this.range = undefined;
+          this.breaks = undefined;
           this.showPalette();
         }
         this.onlook();
@@ -135,6 +137,8 @@ export class Panels {
     look.palette = this.value("palette");
     if (this.range) look.range = this.range;
     else delete look.range;
+    if (this.breaks) look.breaks = this.breaks;
+    else delete look.breaks;
   }
 
   /** Chooses what a look says. */
@@ -147,6 +151,7 @@ export class Panels {
     byId<HTMLSelectElement>("palette").value = look.palette ?? PALETTES[0]!;
     byId<HTMLInputElement>("envelope").value = look.envelope ?? "";
     this.range = look.range;
+    this.breaks = look.breaks;
     this.showPalette();
     const shade = byId<HTMLSelectElement>("shade");
     shade.querySelector("[value=auto]")?.remove();

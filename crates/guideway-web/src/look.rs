@@ -7,7 +7,7 @@ use guideway::envelope::EnvelopeSource;
 use guideway::layout::UserError;
 use guideway::scene::density::ToneMap;
 use guideway::scene::{
-    ColorBy, FrameSize, NumberColors, Palette, Rgba, Scene, SceneOptions, Shading,
+    ClassBreaks, ColorBy, FrameSize, NumberColors, Palette, Rgba, Scene, SceneOptions, Shading,
 };
 use guideway::spline::Point;
 use serde::Deserialize;
@@ -27,9 +27,11 @@ pub(crate) struct Look {
     /// Name or id of the only level that is shown.
     level: Option<String>,
     color_by: Option<String>,
-    /// The colors of numbers: the name of a palette, and the numbers at its ends.
+    /// The colors of numbers: the name of a palette, and either the numbers at its ends or the
+    /// ascending ones between classes.
     palette: Option<String>,
     range: Option<[f64; 2]>,
+    breaks: Option<Vec<f64>>,
     /// RRGGBB; black on white by default.
     color: Option<String>,
     background: Option<String>,
@@ -105,6 +107,14 @@ impl Look {
             let unknown = || usage(format!("no palette is called `{name}`"));
             Palette::named(name).ok_or_else(unknown)
         });
+        if self.range.is_some() && self.breaks.is_some() {
+            return Err(UserError::new(
+                "usage",
+                "the look of the picture has both `range` and `breaks`",
+                "Leave out one of them: breaks make classes, a range a continuous scale",
+            ));
+        }
+        let breaks = self.breaks.as_deref().map(ClassBreaks::new).transpose();
         Ok(SceneKey {
             level: self.level.clone(),
             color_by: self.color_by.clone(),
@@ -112,6 +122,7 @@ impl Look {
             numbers: NumberColors {
                 palette: palette.transpose()?.unwrap_or_default(),
                 range: self.range,
+                breaks: breaks.map_err(|error| usage(error.to_string()))?,
                 background: rgba(self.background.as_deref(), Rgba::WHITE)?,
             },
         })

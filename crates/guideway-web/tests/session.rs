@@ -135,6 +135,18 @@ fn numbers_have_the_colors_of_palette_and_range() {
     look["range"] = json!([0.0, 5.0]);
     let narrow = session.render(&look.to_string()).unwrap();
     assert!(warm.rgba != viridis.rgba && viridis.rgba != narrow.rgba);
+    look["breaks"] = json!([0.9, 1.3]);
+    let both = session.render(&look.to_string()).unwrap_err();
+    assert!(both.message.contains("`range` and `breaks`"));
+    look.as_object_mut().unwrap().remove("range");
+    let classes = session.render(&look.to_string()).unwrap();
+    let legend = parsed(&classes.report)["legend"].clone();
+    assert_eq!(legend["entries"][1]["label"], "0.9 to 1.3");
+    assert!(classes.rgba != viridis.rgba);
+    look["breaks"] = json!([1.3, 0.9]);
+    let error = session.render(&look.to_string()).unwrap_err();
+    assert!(error.message.contains("0.9 comes after 1.3"));
+    look.as_object_mut().unwrap().remove("breaks");
     look["palette"] = json!("rainbow");
     let error = session.render(&look.to_string()).unwrap_err();
     assert!(error.message.contains("rainbow"));
