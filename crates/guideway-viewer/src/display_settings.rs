@@ -12,6 +12,7 @@ use guideway_scene::{
 use serde::{Deserialize, Serialize};
 
 use crate::language::Language;
+use crate::typed_breaks::TypedBreaks;
 use crate::units::{LengthUnit, SpeedUnit, Units};
 
 /// Greatest width of paths without a width of their own, in meters.
@@ -56,6 +57,9 @@ pub(crate) struct DisplaySettings {
     /// The numbers at both ends of the palette; `None` for the least and the largest one.
     #[serde(skip)]
     pub(crate) range: [Option<f64>; 2],
+    /// The numbers between classes of colors, in place of a range.
+    #[serde(skip)]
+    pub(crate) breaks: TypedBreaks,
     pub(crate) is_thesis_rule: bool,
     /// Width of paths without a width of their own, in meters; `None` takes what suits the file.
     pub(crate) width_m: Option<f64>,
@@ -90,6 +94,7 @@ impl Default for DisplaySettings {
             color_by: None,
             palette: Palette::default(),
             range: [None; 2],
+            breaks: TypedBreaks::default(),
             is_thesis_rule: false,
             width_m: None,
             min_px: MIN_PX,
@@ -188,7 +193,7 @@ impl DisplaySettings {
     }
 
     /// The colors of the numbers of a column.
-    fn number_colors(&self) -> NumberColors {
+    pub(crate) fn number_colors(&self) -> NumberColors {
         let [from, to] = self.range;
         let ends = [
             from.unwrap_or(f64::NEG_INFINITY),
@@ -197,13 +202,14 @@ impl DisplaySettings {
         NumberColors {
             palette: self.palette,
             range: (self.range != [None; 2]).then_some(ends),
+            breaks: self.breaks.breaks(),
             background: self.background(),
         }
     }
 
     /// Returns `true` if the scenes of the two settings differ.
     pub(crate) fn needs_other_scene(&self, other: &Self) -> bool {
-        let colors = |of: &Self| (of.palette, of.range);
+        let colors = |of: &Self| (of.palette, of.range, of.breaks.breaks());
         self.color_by != other.color_by || colors(self) != colors(other)
     }
 
@@ -286,6 +292,9 @@ mod tests {
         let mut gray = settings.clone();
         gray.palette = Palette::Gray;
         assert!(settings.needs_other_scene(&of_range) && settings.needs_other_scene(&gray));
+        let mut of_classes = settings.clone();
+        of_classes.breaks.set_text("0.5 1".into());
+        assert!(settings.needs_other_scene(&of_classes));
     }
 
     #[test]

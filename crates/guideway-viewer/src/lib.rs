@@ -18,6 +18,7 @@
 //! | selection | search, exact edits, selection commands, copied elements | `selection` |
 //! | language | English texts, and German ones beside them | `language` |
 //! | units | the units in which speeds and lengths are shown and typed | `units` |
+//! | typed breaks | the class breaks of the colors as they are typed | `typed_breaks` |
 //! | canvas | camera, input, painting, decorations | `canvas` |
 //! | export | pictures for files and clipboard | `export` |
 //! | preferences | what outlives a run | `preferences` |
@@ -54,6 +55,7 @@ mod services;
 #[cfg(test)]
 mod tests;
 mod tools;
+mod typed_breaks;
 mod units;
 mod window;
 mod window_icon;

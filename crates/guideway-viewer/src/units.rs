@@ -203,6 +203,15 @@ pub(crate) fn typed_factor(typed: &str, unit: Option<&str>) -> Option<f64> {
     }
 }
 
+/// A number in whose text a comma may stand for the decimal point.
+pub(crate) fn decimal(text: &str) -> Option<f64> {
+    let is_decimal_comma = text.matches(',').count() == 1 && !text.contains('.');
+    match is_decimal_comma {
+        true => text.replace(',', ".").parse().ok(),
+        false => text.parse().ok(),
+    }
+}
+
 /// A finite number that is written with a unit behind it or without one. See [`typed_factor`].
 pub(crate) fn typed_number(
     text: &str,

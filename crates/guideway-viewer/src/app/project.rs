@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use guideway_document::Document;
 use guideway_layout::shown_path;
-use guideway_scene::Palette;
+use guideway_scene::{ClassBreaks, Palette};
 use guideway_spline::Point;
 
 use super::open_project::{OpenProject, ReadProject};
@@ -114,6 +114,7 @@ impl App {
         let view = self.canvas.camera.view();
         let palette = self.settings.palette;
         let [color_from, color_to] = self.settings.range;
+        let breaks = self.settings.breaks.breaks();
         Ok(Project {
             active: active.unwrap_or(0),
             level: self.document().and_then(shown_level),
@@ -121,6 +122,7 @@ impl App {
             palette: (palette != Palette::default()).then(|| palette.name().to_owned()),
             color_from,
             color_to,
+            breaks: breaks.map_or_else(Vec::new, |breaks| breaks.numbers().to_vec()),
             view: view.map(|view| ProjectView {
                 center_m: [view.center_m().x, view.center_m().y],
                 px_per_m: view.px_per_m(),
@@ -181,6 +183,7 @@ impl App {
             color_by: project.color_by.clone(),
             palette: palette.and_then(Palette::named).unwrap_or_default(),
             range: [project.color_from, project.color_to],
+            breaks: ClassBreaks::new(&project.breaks).ok().into(),
             uses_desktop_dialogs: self.settings.uses_desktop_dialogs,
             language: self.settings.language,
             ..project.look.clone()

@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use guideway_document::decorations::{Corner, DecorationStyle, legend};
 use guideway_document::text_format::single_line;
-use guideway_scene::{DrawList, FrameSize, Legend};
+use guideway_scene::{DrawList, FrameSize, Legend, LegendEntry};
 
 use crate::display_settings::DisplaySettings;
 use crate::files::{Layer, OpenFiles};
-use crate::language::t;
+use crate::language::{Language, language, say, t};
 
 /// Longest name of a file in a title, in characters: the column stays readable beside it.
 const MAX_NAME_CHARS: usize = 20;
@@ -24,7 +24,11 @@ pub(crate) fn shown_legends<'a>(
     let has_several = visible.len() > 1;
     let of_file = |layer: &'a Layer| {
         let colors = colors_of(layer, settings)?;
-        Some(titled(colors, has_several.then(|| layer.name())))
+        let titled = titled(colors, has_several.then(|| layer.name()));
+        Some(match settings.breaks.breaks() {
+            Some(_) => with_class_names(titled),
+            None => titled,
+        })
     };
     visible.into_iter().filter_map(of_file).collect()
 }
@@ -51,6 +55,31 @@ fn titled(legend: &Legend, file: Option<String>) -> Cow<'_, Legend> {
         column,
         ..legend.clone()
     })
+}
+
+/// A legend whose classes between breaks have their names in the language of the window.
+fn with_class_names(legend: Cow<'_, Legend>) -> Cow<'_, Legend> {
+    if language() == Language::English {
+        return legend;
+    }
+    let mut legend = legend.into_owned();
+    for LegendEntry { label, .. } in &mut legend.entries {
+        *label = class_name(label);
+    }
+    Cow::Owned(legend)
+}
+
+fn class_name(label: &str) -> String {
+    if let Some(end) = label.strip_prefix("below ") {
+        return say!("below {end}", end);
+    }
+    if let Some(start) = label.strip_suffix(" and more") {
+        return say!("{start} and more", start);
+    }
+    match label.split_once(" to ") {
+        Some((start, end)) => say!("{start} to {end}", start, end),
+        None => t(label).to_owned(),
+    }
 }
 
 /// Legends below each other in the upper left corner, as far as they fit.

@@ -9,12 +9,15 @@ use crate::backdrop::SweptAreasLayer;
 use crate::display_settings::{DisplaySettings, MAX_WIDTH_M, MIN_PX_RANGE};
 use crate::files::OpenFiles;
 use crate::language::{t, translated};
+use crate::typed_breaks::TypedBreaks;
 
 /// Columns that color every layout, beside its attributes.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
 
 /// Width of lines when the user first sets one, in meters.
 const FIRST_WIDTH_M: f64 = 0.05;
+/// Width of the field of class breaks, in points: some six numbers.
+const BREAKS_WIDTH: f32 = 130.0;
 /// Change of a number of a column per point of a drag.
 const DRAG_SPEED: f64 = 0.02;
 
@@ -41,8 +44,9 @@ pub(super) fn show(
             }
         });
     if settings.color_by != before.color_by {
-        // The numbers of another column have another range.
+        // The numbers of another column have another range and other classes.
         settings.range = [None; 2];
+        settings.breaks = TypedBreaks::default();
     }
     if let Some(document) = files.document() {
         show_numbers(ui, document.layout(), settings);
@@ -84,7 +88,7 @@ pub(super) fn show(
     }
 }
 
-/// Shows palette and range, if numbers decide the colors.
+/// Shows palette, range and class breaks, if numbers decide the colors.
 fn show_numbers(ui: &mut Ui, layout: &Layout, settings: &mut DisplaySettings) {
     let column = settings.color_by.as_ref();
     let attribute = column.and_then(|column| layout.paths.column(column));
@@ -99,17 +103,26 @@ fn show_numbers(ui: &mut Ui, layout: &Layout, settings: &mut DisplaySettings) {
                 ui.selectable_value(&mut settings.palette, palette, t(palette.name()));
             }
         });
+    let by = ColorBy {
+        column: attribute.name.clone(),
+    };
+    match settings.breaks.breaks() {
+        Some(_) => {
+            ui.weak(t("Class breaks take the place of a range"));
+        }
+        None => show_range(ui, layout, &by, settings),
+    }
+    show_breaks(ui, layout, &by, settings);
+}
+
+/// Shows the numbers at both ends of the palette.
+fn show_range(ui: &mut Ui, layout: &Layout, by: &ColorBy, settings: &mut DisplaySettings) {
     let [from, to] = settings.range;
     let limits = [
         f64::MIN..=to.unwrap_or(f64::MAX),
         from.unwrap_or(f64::MIN)..=f64::MAX,
     ];
-    let present = || {
-        let by = ColorBy {
-            column: attribute.name.clone(),
-        };
-        by.range(layout).unwrap_or([0.0, 1.0])
-    };
+    let present = || by.range(layout).unwrap_or([0.0, 1.0]);
     ui.horizontal(|ui| {
         let ends = [t("Range from"), t("up to")]
             .into_iter()
@@ -125,6 +138,27 @@ fn show_numbers(ui: &mut Ui, layout: &Layout, settings: &mut DisplaySettings) {
             }
         }
     });
+}
+
+/// Shows the numbers between classes of colors, and what is wrong with their text.
+fn show_breaks(ui: &mut Ui, layout: &Layout, by: &ColorBy, settings: &mut DisplaySettings) {
+    let mut text = settings.breaks.text().to_owned();
+    let label = ui.label(t("Class breaks"));
+    ui.horizontal(|ui| {
+        let field = TextEdit::singleline(&mut text)
+            .hint_text("0.3, 0.6, 1")
+            .desired_width(BREAKS_WIDTH);
+        if ui.add(field).labelled_by(label.id).changed() {
+            settings.breaks.set_text(text);
+        }
+        if ui.button(t("From the scale")).clicked() {
+            let round = by.round_breaks(layout, settings.number_colors().range);
+            settings.breaks = round.into();
+        }
+    });
+    if let Some(error) = settings.breaks.error() {
+        ui.colored_label(ui.visuals().error_fg_color, error);
+    }
 }
 
 /// Shows the width of lines in meters, or that it is automatic.

@@ -43,6 +43,9 @@ pub(crate) struct Project {
     pub(crate) color_from: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) color_to: Option<f64>,
+    /// Class breaks of these numbers, in place of a range.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) breaks: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) view: Option<ProjectView>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -164,6 +167,7 @@ mod tests {
             palette: Some("viridis".into()),
             color_from: Some(0.5),
             color_to: None,
+            breaks: vec![0.5, 1.0],
             view: Some(ProjectView {
                 center_m: [1.5, -2.0],
                 px_per_m: 12.0,

@@ -13,6 +13,7 @@ use guideway_spline::Point;
 use super::services::lanes;
 use super::test_window::TestWindow;
 use crate::canvas::shown_legends;
+use crate::language::Language;
 use crate::panels::SideTab;
 
 /// Two lanes and a wall across them, which stands above them in the file of another program.
@@ -246,6 +247,61 @@ fn palette_and_range_of_numbers_are_chosen_beside_their_column() {
     window.wait(|app| app.is_settled());
     window.harness.run_steps(3);
     assert!(!box_with(&window, "viridis"));
+}
+
+#[test]
+fn class_breaks_are_typed_or_taken_from_the_scale() {
+    let mut window = TestWindow::showing(lanes(12));
+    window.app().side.open(SideTab::View);
+    window.app().settings.color_by = Some("speed".into());
+    window.app().recolor();
+    let labels = |window: &mut TestWindow| -> Vec<String> {
+        window.wait(|app| app.is_settled());
+        window.harness.run_steps(3);
+        let app = window.app();
+        let legends = shown_legends(&app.files, &app.settings);
+        let entries = legends[0].entries.iter();
+        entries.map(|entry| entry.label.clone()).collect()
+    };
+    let is_told = |window: &TestWindow, text: &str| {
+        let mut found = window.harness.query_all_by_label_contains(text);
+        found.next().is_some()
+    };
+    let continuous = labels(&mut window);
+    let field = || By::new().role(Role::TextInput).label("Class breaks");
+    window.harness.get(field()).focus();
+    window.answer("0,5 2");
+    let classes = ["below 0.5", "0.5 to 2", "2 and more"];
+    assert_eq!(labels(&mut window), classes);
+    let scene = window.document().scene();
+    let [low, start, end, high, last] = [0, 1, 3, 4, 11].map(|row| scene.color(row));
+    assert!(low != start && start == end && end != high && high == last);
+    assert!(!is_told(&window, "Range from") && is_told(&window, "take the place of a range"));
+    // A mistake is told, and the classes stay.
+    window.harness.get(field()).focus();
+    window.answer("2 0.5");
+    assert_eq!(labels(&mut window), classes);
+    assert!(is_told(&window, "0.5 comes after 2"));
+    window.app().settings.language = Some(Language::German);
+    window.harness.run_steps(3);
+    assert_eq!(
+        labels(&mut window),
+        ["unter 0.5", "0.5 bis 2", "2 und mehr"]
+    );
+    assert!(is_told(&window, "0.5 kommt nach 2"));
+    window.app().settings.language = Some(Language::English);
+    window.harness.run_steps(3);
+    window.harness.get_by_label("From the scale").click();
+    window.harness.run_steps(3);
+    assert_eq!(window.app().settings.breaks.text(), "1, 2, 3, 4, 5");
+    assert_eq!(labels(&mut window).len(), 6);
+    // Without a text the scale is continuous.
+    window.harness.get(field()).focus();
+    window.harness.run_steps(2);
+    window.key(Modifiers::COMMAND, Key::A);
+    window.key(Modifiers::NONE, Key::Delete);
+    assert_eq!(labels(&mut window), continuous);
+    assert!(is_told(&window, "Range from"));
 }
 
 #[test]

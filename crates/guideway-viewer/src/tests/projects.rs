@@ -36,6 +36,7 @@ fn project_restores_files_view_plan_and_look() {
     app.settings.color_by = Some("speed".into());
     app.settings.palette = Palette::Cividis;
     app.settings.range = [None, Some(1.5)];
+    app.settings.breaks.set_text("0.25; 1,5".into());
     app.settings.has_labels = false;
     let context = app.context.clone();
     let plan = folder.path().join("plans/hall.png");
@@ -68,6 +69,9 @@ fn project_restores_files_view_plan_and_look() {
     assert_eq!(app.settings.color_by.as_deref(), Some("speed"));
     assert_eq!(app.settings.palette, Palette::Cividis);
     assert_eq!(app.settings.range, [None, Some(1.5)]);
+    assert_eq!(app.settings.breaks.text(), "0.25, 1.5");
+    let breaks = app.settings.breaks.breaks().unwrap();
+    assert_eq!(breaks.numbers(), [0.25, 1.5]);
     assert!(!app.settings.has_labels);
     let plan = &app.floor_plan;
     assert!(
@@ -84,8 +88,8 @@ fn project_restores_files_view_plan_and_look() {
 fn missing_files_are_named_and_the_rest_opens() {
     let folder = tempfile::tempdir().unwrap();
     let project = folder.path().join("hall.guideway-project.toml");
-    let text = "version = 1\nactive = 1\n[[file]]\npath = \"gone.lif\"\n[[file]]\n\
-                path = \"b.arrow\"\n[floor-plan]\npath = \"gone.png\"\n";
+    let text = "version = 1\nactive = 1\nbreaks = [2.0, 1.0]\n[[file]]\npath = \"gone.lif\"\n\
+                [[file]]\npath = \"b.arrow\"\n[floor-plan]\npath = \"gone.png\"\n";
     std::fs::write(&project, text).unwrap();
     let disk = disk(folder.path());
     let mut window = TestWindow::open(&disk, &[project.to_str().unwrap()], Some("cpu"));
@@ -93,6 +97,7 @@ fn missing_files_are_named_and_the_rest_opens() {
     assert!(has_notice(window.app(), "gone.lif") && has_notice(window.app(), "gone.png"));
     assert_eq!(window.document().layout().paths.len(), 5);
     assert!(window.app().floor_plan.is_empty());
+    assert!(window.app().settings.breaks.text().is_empty(), "no order");
     // A damaged project leaves the window as it is.
     std::fs::write(&project, "version = 1\n[[file]]\npath = 7\n").unwrap();
     window.app().open_any(project);

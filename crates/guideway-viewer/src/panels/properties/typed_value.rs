@@ -4,7 +4,7 @@ use guideway_layout::Value;
 
 use super::field::FieldKind;
 use crate::language::{say, t};
-use crate::units::{shown_unit, typed_number};
+use crate::units::{decimal, shown_unit, typed_number};
 
 /// A value that a user entered.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,13 +74,7 @@ impl TypedValue {
 /// A finite number in `unit`, which may be typed behind it, as may a unit that converts to it. A
 /// comma may stand for the decimal point.
 fn number(text: &str, unit: Option<&str>) -> Option<f64> {
-    typed_number(text, unit, |digits| {
-        let is_decimal_comma = digits.matches(',').count() == 1 && !digits.contains('.');
-        match is_decimal_comma {
-            true => digits.replace(',', ".").parse().ok(),
-            false => digits.parse().ok(),
-        }
-    })
+    typed_number(text, unit, decimal)
 }
 
 #[cfg(test)]
