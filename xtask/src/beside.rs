@@ -1,13 +1,19 @@
 //! A task of this program that runs beside another, in a process of its own: what it prints goes to
 //! a file and is shown after it, so that the two are not mixed.
 
-use std::fs::{self, File};
+use std::fs::File;
+use std::io;
 use std::path::PathBuf;
 use std::process::Child;
+use std::thread;
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 
 use crate::step;
+
+/// Time between two looks at a task that still runs.
+const POLL: Duration = Duration::from_millis(200);
 
 pub(crate) struct Beside {
     task: &'static str,
@@ -30,14 +36,22 @@ impl Beside {
         Ok(Self { task, process, log })
     }
 
-    /// Waits for the end of the task and prints what it printed.
+    /// Prints what the task has printed and, until it ends, what it still prints: a task that hangs
+    /// has shown where.
     ///
     /// # Errors
     /// When the task failed.
     pub(crate) fn finish(mut self) -> Result<()> {
-        let status = self.process.wait()?;
-        let printed = fs::read(&self.log)?;
-        print!("{}", String::from_utf8_lossy(&printed));
+        let mut printed = File::open(&self.log)?;
+        let status = loop {
+            // Before the copy: the last words of a task that has ended are copied too.
+            let ended = self.process.try_wait()?;
+            io::copy(&mut printed, &mut io::stdout())?;
+            if let Some(status) = ended {
+                break status;
+            }
+            thread::sleep(POLL);
+        };
         if !status.success() {
             bail!("cargo xtask {} failed: {status}", self.task);
         }

@@ -19,6 +19,9 @@ const RANDOM: &str = "
     }
 ";
 
+/// Most time of a program, in seconds.
+const LIMIT_S: &str = "300";
+
 /// A prefix of Wine; its programs end with it.
 pub(super) struct Wine {
     prefix: PathBuf,
@@ -59,7 +62,8 @@ impl Wine {
                 .args(["-ladvapi32"])
                 .run()?;
         }
-        let mut waiting = wine.command("cmd");
+        let mut waiting = Command::new("wine");
+        wine.prepare(&mut waiting).arg("cmd");
         waiting.stdin(Stdio::piped()).stdout(Stdio::null());
         wine.session = Some(waiting.spawn().context("cannot start Wine")?);
         Ok(wine)
@@ -70,9 +74,11 @@ impl Wine {
         self.prefix.join("drive_c")
     }
 
-    /// A program of Windows, by its file or by its name on the path of Windows.
+    /// A program of Windows, by its file or by its name on the path of Windows. One that hangs is
+    /// ended, with the exit code 124.
     pub(super) fn command(&self, program: impl AsRef<Path>) -> Command {
-        let mut command = Command::new("wine");
+        let mut command = Command::new("timeout");
+        command.args(["--kill-after=10", LIMIT_S, "wine"]);
         self.prepare(&mut command).arg(program.as_ref());
         command
     }
