@@ -7,8 +7,8 @@ use super::random_input::{RandomSource, act, close_dialogs, keep_open};
 use super::services::lanes;
 use super::test_window::TestWindow;
 
-/// Events of the run: some minutes of input.
-const EVENTS: usize = 2_000;
+/// Events of the run: a minute or two of input. The soak goes on from there.
+const EVENTS: usize = 1_200;
 
 #[test]
 fn random_input_keeps_document_history_and_picture_consistent() {
