@@ -86,6 +86,11 @@ impl Band {
 
         for row in first_row..last_row {
             for column in first_column..last_column {
+                let sample = &mut self.samples[row * self.columns + column];
+                // Most samples: chords are shorter than strokes are wide.
+                if sample.covered_by == order {
+                    continue;
+                }
                 let at = origin + Point::new(position(column), position(row));
                 let from_start = at - start;
                 // Nearest point of the line; a line without length is a point.
@@ -95,8 +100,7 @@ impl Band {
                     0.0
                 };
                 let apart = from_start - along * fraction;
-                let sample = &mut self.samples[row * self.columns + column];
-                if apart.dot(apart) <= square && sample.covered_by != order {
+                if apart.dot(apart) <= square {
                     sample.covered_by = order;
                     for (below, ink) in sample.over.iter_mut().zip(ink) {
                         *below = ink + *below * shows_through;
