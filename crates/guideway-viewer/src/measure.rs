@@ -121,7 +121,8 @@ struct SimulatedUser {
 impl SimulatedUser {
     fn new(services: Arc<dyn AppServices>, options: LaunchOptions) -> Self {
         let started = Instant::now();
-        let (context, gate) = (Context::default(), Arc::new(RepaintGate::new()));
+        let context = Context::default();
+        let gate = Arc::new(RepaintGate::new(&context));
         let is_asked = Arc::<AtomicBool>::default();
         let ask = |is_asked: &Arc<AtomicBool>| {
             let is_asked = Arc::clone(is_asked);

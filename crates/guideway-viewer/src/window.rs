@@ -172,7 +172,7 @@ impl Repaints {
                 window.request_redraw();
             }
         };
-        let gate = Arc::new(RepaintGate::new());
+        let gate = Arc::new(RepaintGate::new(ctx));
         let timer = RedrawTimer::start(redraw.clone());
         let (admitting, timing) = (Arc::clone(&gate), timer.clone());
         ctx.set_request_repaint_callback(|_| {});

@@ -8,5 +8,5 @@ mod task;
 
 pub(crate) use latest_task::LatestTask;
 pub(crate) use redraw_timer::RedrawTimer;
-pub(crate) use repaint_gate::{RepaintGate, changes_parts_late};
+pub(crate) use repaint_gate::{RepaintGate, changes_parts_late, lay_out_again};
 pub(crate) use task::{BackgroundTask, RepaintHandle};

@@ -7,6 +7,8 @@ use eframe::egui::epaint::ClippedShape;
 use eframe::egui::text_selection::LabelSelectionState;
 use eframe::egui::{Color32, FontId, Galley, Popup, Pos2, Rect, Style, Ui, WidgetRect};
 
+use crate::background::lay_out_again;
+
 /// The last layout of a part whose content is told by a key.
 pub(crate) struct StillPart<K> {
     last: Option<Layout<K>>,
@@ -73,7 +75,7 @@ impl<K: PartialEq> StillPart<K> {
             last => {
                 if last.as_ref().is_some_and(|last| last.is_settled) {
                     // egui knows only after this frame which label is under the pointer.
-                    ui.ctx().request_repaint();
+                    lay_out_again(ui.ctx(), "a part of the window is touched");
                 }
                 let last = last.filter(|_| is_untouched);
                 Layout::new(ui, (key, place), last, lay_out)

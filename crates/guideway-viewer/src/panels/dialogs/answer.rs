@@ -3,6 +3,7 @@
 use eframe::egui::{Context, Ui};
 
 use crate::action::Action;
+use crate::background::lay_out_again;
 use crate::editing::{EditOutcome, EditTask};
 use crate::language::translated;
 
@@ -48,7 +49,7 @@ impl Answer {
             Ok(edit) => {
                 let (edit, outcome) = edit.with_outcome();
                 (self.outcome, self.error) = (Some(outcome), None);
-                ctx.request_repaint();
+                lay_out_again(ctx, "the edit of the dialog starts");
                 Some(Action::Edit(edit))
             }
             Err(error) => {

@@ -9,7 +9,7 @@ use eframe::egui::{Context, DragValue, Id, Key, Modal, Modifiers, TextEdit, Ui};
 
 use super::path_line::{Completion, complete, path_of};
 use crate::action::Action;
-use crate::background::{BackgroundTask, RepaintHandle};
+use crate::background::{BackgroundTask, RepaintHandle, lay_out_again};
 use crate::file_purpose::PromptKind;
 use crate::language::{say, t};
 use crate::services::AppServices;
@@ -230,7 +230,7 @@ impl OpenPrompt {
             self.completion = done;
             self.text.clone_from(&self.completion.text);
             place_cursor_at_end(ctx, line_id(), &self.text);
-            ctx.request_repaint();
+            lay_out_again(ctx, "the line is completed");
         }
     }
 
