@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use guideway_scene::{Budget, Frame, RenderError, Report};
+use guideway_scene::{Budget, Frame, Method, RenderError, Report};
 use guideway_tessellation::{Antialias, Commands, GlDevice, Tessellation, TessellationOptions};
 use guideway_tests::BoxError;
 use guideway_tests::devices::{available_or_skip, gl};
 use guideway_tests::evidence;
 use guideway_tests::hairline::{Difference, Tolerance, check, drawing};
-use guideway_tests::methods::{draw, draw_reference};
+use guideway_tests::methods::{draw_reference, render_view};
 use guideway_tests::parallel::in_parallel;
 use guideway_tests::scenes::{self, SceneCase};
 use guideway_tests::sketch::{Drawing, Sketch};
@@ -125,22 +125,27 @@ fn draw_repeatedly(
     antialias: Antialias,
     drawing: &Drawing,
 ) -> Result<(Frame, Report), RenderError> {
-    let method = |commands| {
+    let mut first: Option<(Frame, Report)> = None;
+    for commands in [Commands::PerPath, Commands::Compact] {
         let options = TessellationOptions {
             commands,
             antialias,
         };
-        Tessellation::new(Arc::clone(device), options)
-    };
-    let (frame, report) = draw(&method(Commands::PerPath), drawing, &Budget::default())?;
-    for commands in [Commands::PerPath, Commands::Compact] {
-        let (again, report_again) = draw(&method(commands), drawing, &Budget::default())?;
-        assert!(again == frame, "{commands:?}");
-        assert_eq!(
-            (report_again.drawn, report_again.lines),
-            (report.drawn, report.lines)
-        );
+        let method = Tessellation::new(Arc::clone(device), options);
+        let mut prepared = method.prepare(Arc::new(drawing.scene()), &Budget::default())?;
+        for _ in 0..2 {
+            let (again, report_again) =
+                render_view(prepared.as_mut(), &drawing.view, &drawing.style)?;
+            let (frame, report) =
+                first.get_or_insert_with(|| (again.clone(), report_again.clone()));
+            assert!(again == *frame, "{commands:?}");
+            assert_eq!(
+                (report_again.drawn, report_again.lines),
+                (report.drawn, report.lines)
+            );
+        }
     }
+    let (frame, report) = first.expect("each kind draws");
     assert!(report.accounts_for_all(), "{report:?}");
     assert_eq!(report.total, drawing.layout.path_count() as u64);
     Ok((frame, report))
