@@ -1,7 +1,7 @@
 //! Properties that hold on any device and for any of its limits. `tests/tests/device_methods.rs`
 //! compares whole pictures with the oracle.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 use guideway_layout::{Layout, NewPath, OwnStyle};
 use guideway_scene::{
@@ -42,8 +42,23 @@ fn tiles() -> Option<Tiles> {
     device_or_skip(&TILES)
 }
 
+/// The method on a device with limits. Tests with the same limits share it.
 fn limited(options: GpuOptions) -> Tiles {
-    Tiles::new(Gpu::with_options(options).unwrap(), OPTIONS).unwrap()
+    static DEVICES: Mutex<Vec<(GpuOptions, Arc<OnceLock<Tiles>>)>> = Mutex::new(Vec::new());
+    let device = {
+        let mut devices = DEVICES.lock().unwrap();
+        let found = devices.iter().find(|(of, _)| *of == options);
+        match found.map(|(_, device)| Arc::clone(device)) {
+            Some(device) => device,
+            None => {
+                let device = Arc::default();
+                devices.push((options, Arc::clone(&device)));
+                device
+            }
+        }
+    };
+    let new = || Tiles::new(Gpu::with_options(options).unwrap(), OPTIONS).unwrap();
+    device.get_or_init(new).clone()
 }
 
 /// Bent paths of two segments, each about `reach_m` long, spread over 100 m x 60 m.
@@ -127,7 +142,7 @@ fn picture(prepared: &mut dyn Prepared, view: &View, style: &Style) -> (Frame, R
 fn device_limits_do_not_change_the_picture() {
     let Some(tiles) = tiles() else { return };
     let small = limited(GpuOptions {
-        storage_binding_bytes: Some(64 << 10),
+        storage_binding_bytes: Some(32 << 10),
         ..GpuOptions::default()
     });
     let narrow = limited(GpuOptions {
@@ -143,14 +158,14 @@ fn device_limits_do_not_change_the_picture() {
         ..GpuOptions::default()
     });
     let split = limited(GpuOptions {
-        max_unsplit_list: Some(60),
+        max_unsplit_list: Some(30),
         ..GpuOptions::default()
     });
     let integrated = limited(GpuOptions::INTEGRATED);
     for (scene, shading) in [
-        (plain(1500, 8.0), Shading::Color),
-        (mixed(1500, 8.0), Shading::Color),
-        (plain(1500, 8.0), Shading::Density(ToneMap::Log)),
+        (plain(700, 8.0), Shading::Color),
+        (mixed(700, 8.0), Shading::Color),
+        (plain(700, 8.0), Shading::Density(ToneMap::Log)),
     ] {
         let style = style(shading);
         let (expected, report) = picture(&mut prepared(&tiles, &scene), &all(), &style);

@@ -12,9 +12,9 @@ use super::*;
 #[test]
 fn paths_that_are_shown_again_upload_no_points() {
     let Some(tiles) = tiles() else { return };
-    let scene = mixed(6400, 2.0);
+    let scene = mixed(1600, 2.0);
     let mut pair = Pair::new(&tiles, &scene, Style::default());
-    let paths: Arc<[u32]> = (0..6400).step_by(10).collect();
+    let paths: Arc<[u32]> = (0..1600).step_by(10).collect();
     let states = |state| Edit::SetStates(paths.iter().map(|&path| (path, state)).collect());
     let [hide, show] = [PathState::Removed, PathState::Shown].map(states);
     let (before, _) = pair.check(&all());
@@ -26,7 +26,7 @@ fn paths_that_are_shown_again_upload_no_points() {
         EditOutcome::NotInPlace => panic!("not in place"),
     };
     // A stroke per path.
-    let most = 640 * 4;
+    let most = 160 * 4;
     assert!(bytes(&mut pair, &hide) <= most);
     assert!(pair.check(&all()).0 != before);
     assert!(bytes(&mut pair, &show) <= most);
@@ -87,11 +87,11 @@ fn paths_shown_again_in_a_near_view_have_their_exact_points() {
 #[test]
 fn styles_go_up_as_indices() {
     let Some(tiles) = tiles() else { return };
-    let scene = plain(6400, 2.0);
+    let scene = plain(1600, 2.0);
     let mut pair = Pair::new(&tiles, &scene, Style::default());
     pair.check(&all());
     let restyle = |pair: &mut Pair, style: &dyn Fn(u32) -> OwnStyle| {
-        let rows = (0..6400).step_by(10);
+        let rows = (0..1600).step_by(10);
         let edit = Edit::Restyle(rows.map(|row| (row, style(row))).collect());
         let bytes = match pair.cached.edit(&edit).unwrap() {
             EditOutcome::InPlace { moved_bytes } => moved_bytes,
@@ -110,7 +110,7 @@ fn styles_go_up_as_indices() {
         ..OwnStyle::default()
     };
     // All paths get the style that they had, then some another one.
-    let [of_all, of_one, of_several] = [8, 4 * 640 + 8, 8 * 640 + 3 * 8];
+    let [of_all, of_one, of_several] = [8, 4 * 160 + 8, 8 * 160 + 3 * 8];
     assert_eq!(
         restyle(&mut pair, &|_| colored(0xff00_00ff)),
         of_all + of_one

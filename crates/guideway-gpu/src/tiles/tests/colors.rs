@@ -94,7 +94,7 @@ fn batches_draw_the_same_as_sorted_lists() {
     let far = view([50.0, 30.0], 0.5);
     for (name, layout, view) in [
         ("short lists", layout(600, 6.0), all()),
-        ("long lists", layout(6000, 8.0), far),
+        ("long lists", layout(3000, 8.0), far),
         ("one path in most of a list", dominated_by_one_path(), all()),
     ] {
         let layout = colored(layout);

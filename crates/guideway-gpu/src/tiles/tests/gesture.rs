@@ -56,7 +56,7 @@ fn edited(tiles: &Tiles, scene: &Arc<Scene>, edit: &Edit) -> PreparedTiles {
 fn gesture_shows_what_its_edit_leaves() {
     let Some(tiles) = tiles() else { return };
     let style = Style::default();
-    let scenes = [plain(1500, 3.0), mixed(1500, 3.0), scene(dense(1500, 1.0))];
+    let scenes = [plain(700, 3.0), mixed(700, 3.0), scene(dense(700, 1.0))];
     for (scene, shift) in scenes.into_iter().zip(0..) {
         for (paths, shift) in selections(&scene).into_iter().zip(shift..) {
             let (mut cached, mut uncached) = (prepared(&tiles, &scene), prepared(&tiles, &scene));
@@ -78,7 +78,7 @@ fn gesture_shows_what_its_edit_leaves() {
                     let (mean, worst) = difference(&drawn, &expected);
                     assert!(mean < 0.15 && worst <= 40, "{mean} {worst} by {by:?}");
                     // Whole clusters count as drawn.
-                    let is_wrong = report.drawn.abs_diff(of_expected.drawn) > 400;
+                    let is_wrong = report.drawn.abs_diff(of_expected.drawn) > 200;
                     assert!(!is_wrong, "{} {}", report.drawn, of_expected.drawn);
                 }
             }

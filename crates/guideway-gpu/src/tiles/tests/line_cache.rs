@@ -17,9 +17,9 @@ fn views_of_a_lod_share_lines_and_draw_the_same_picture() {
     let Some(tiles) = tiles() else { return };
     let density = style(Shading::Density(ToneMap::Log));
     for (scene, style) in [
-        (plain(3000, 4.0), Style::default()),
-        (mixed(3000, 4.0), Style::default()),
-        (plain(3000, 4.0), density),
+        (plain(1500, 2.0), Style::default()),
+        (mixed(1500, 2.0), Style::default()),
+        (plain(1500, 2.0), density),
     ] {
         let mut cached = prepared(&tiles, &scene);
         let (mut warm, mut cold) = (0, 0);
@@ -76,7 +76,7 @@ fn edits() -> [Edit; 6] {
 fn next_picture_shows_the_edit() {
     let Some(tiles) = tiles() else { return };
     let style = Style::default();
-    for scene in [plain(600, 6.0), mixed(600, 6.0)] {
+    for scene in [plain(600, 3.0), mixed(600, 3.0)] {
         // Both have the same history; the second reuses nothing.
         let (mut cached, mut uncached) = (prepared(&tiles, &scene), prepared(&tiles, &scene));
         uncached.target.reuses_frames = false;
@@ -107,9 +107,9 @@ fn next_picture_shows_the_edit() {
 #[test]
 fn draws_views_whose_lod_exceeds_the_line_buffers() {
     let Some(tiles) = tiles() else { return };
-    let scene = plain(6000, 2.0);
+    let scene = plain(3000, 2.0);
     let small = limited(GpuOptions {
-        storage_binding_bytes: Some(64 << 10),
+        storage_binding_bytes: Some(32 << 10),
         ..GpuOptions::default()
     });
     let mut cached = prepared(&small, &scene);

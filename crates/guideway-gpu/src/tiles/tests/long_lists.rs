@@ -22,11 +22,11 @@ fn split_tiles_show_all_of_their_lines() {
         assert!(unsplit.target.split_lists.is_none());
         for options in [
             GpuOptions {
-                max_unsplit_list: Some(60),
+                max_unsplit_list: Some(30),
                 ..GpuOptions::default()
             },
             GpuOptions {
-                max_unsplit_list: Some(60),
+                max_unsplit_list: Some(30),
                 without_subgroups: true,
                 ..GpuOptions::default()
             },
@@ -58,8 +58,8 @@ fn halves_windows_with_too_many_split_tiles() {
         loops_per_thread: Some(4_096),
         ..GpuOptions::default()
     });
-    let size = FrameSize::new(640, 400).unwrap();
-    let view = View::new(size, Point::new(50.0, 30.0), 6.0).unwrap();
+    let size = FrameSize::new(320, 200).unwrap();
+    let view = View::new(size, Point::new(50.0, 30.0), 3.0).unwrap();
     let (scene, style) = (crowd(), Style::default());
     let (expected, _) = picture(&mut prepared(&tiles, &scene), &view, &style);
     let mut halved = prepared(&limited_loops, &scene);

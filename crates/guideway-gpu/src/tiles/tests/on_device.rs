@@ -60,7 +60,7 @@ fn on_device(prepared: &mut PreparedTiles, view: &View, style: &Style) -> (Devic
 fn pictures_on_the_device_have_the_same_pixels() {
     let Some(tiles) = tiles() else { return };
     let banded = limited(GpuOptions {
-        storage_binding_bytes: Some(64 << 10),
+        storage_binding_bytes: Some(32 << 10),
         ..GpuOptions::default()
     });
     let transparent = Style {
@@ -75,8 +75,8 @@ fn pictures_on_the_device_have_the_same_pixels() {
     for tiles in [&tiles, &banded] {
         let gpu = &tiles.0.gpu;
         for (scene, style) in [
-            (plain(1500, 3.0), Style::default()),
-            (mixed(1500, 3.0), transparent),
+            (plain(700, 3.0), Style::default()),
+            (mixed(700, 3.0), transparent),
         ] {
             let (mut memory, mut device) = (prepared(tiles, &scene), prepared(tiles, &scene));
             // The same view again, a scrolled one, and one of another size.
