@@ -182,7 +182,7 @@ fn flattens_all_lines_once_many_have_changed() {
     };
     pair.cached.target.lines =
         Some(LineBuffers::new(&mut pair.cached.device.memory, capacity).unwrap());
-    let view = |step: u32| view([50.0, 30.0], 3.0 + 0.005 * f64::from(step));
+    let view = |step: u32| view([50.0, 30.0], 3.0 + 0.004 * f64::from(step));
     pair.check(&view(0));
     let back_and_forth = |step: u32| Edit::Transform {
         paths: nearest(&scene, [50.0, 30.0], 60),
